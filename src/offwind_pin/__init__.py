@@ -1,0 +1,42 @@
+"""Structural dynamics of monopile offshore wind turbines.
+
+>>> import offwind_pin as ow
+>>> turbine = ow.load_turbine("oc6_phase2")
+>>> system = ow.build(turbine, foundation="coupled_springs", sea=ow.StillWater())
+>>> ow.modes(system, n=2).label
+['SS1', 'FA1']
+"""
+
+from offwind_pin.analysis.build import build
+from offwind_pin.analysis.modal import ModalResult, modes
+from offwind_pin.analysis.static import StaticResult, static
+from offwind_pin.analysis.transient import simulate
+from offwind_pin.dynamics.sea import IrregularWaves, StillWater
+from offwind_pin.dynamics.system import System
+from offwind_pin.errors import InputError, InterruptedSimulation, OffwindError, SolverError
+from offwind_pin.loads.synthetic_wind import SyntheticWind
+from offwind_pin.loads.tower_top import LoadHistory, read_load_history
+from offwind_pin.turbines.definition import Turbine
+from offwind_pin.turbines.reader import load_turbine, shipped_turbines
+
+__all__ = [
+    "InputError",
+    "InterruptedSimulation",
+    "IrregularWaves",
+    "LoadHistory",
+    "ModalResult",
+    "OffwindError",
+    "SolverError",
+    "StaticResult",
+    "StillWater",
+    "SyntheticWind",
+    "System",
+    "Turbine",
+    "build",
+    "load_turbine",
+    "modes",
+    "read_load_history",
+    "shipped_turbines",
+    "simulate",
+    "static",
+]

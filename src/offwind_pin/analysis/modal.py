@@ -1,0 +1,141 @@
+"""Natural modes about a static state, labelled by what moves."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from offwind_pin.analysis.static import StaticResult, static
+from offwind_pin.dynamics.system import Equations, System
+from offwind_pin.errors import InputError
+from offwind_pin.solve.eigen import natural_modes
+from offwind_pin.turbines.definition import Array
+
+FAMILIES = {"FA": "fore-aft", "SS": "side-side", "T": "torsion", "V": "vertical"}
+_FAMILY_OF_JOINT = {"px": "FA", "ry": "FA", "py": "SS", "rx": "SS", "rz": "T", "pz": "V"}
+_SHOWN = {"FA": 0, "SS": 1, "V": 2, "T": 5}
+
+
+@dataclass(frozen=True)
+class ModalResult:
+    """Natural modes of a system about a static state, in order of frequency.
+
+    Attributes
+    ----------
+    frequency_hz : (n,) undamped natural frequencies
+    damping_ratio : (n,) phi' D phi / (2 omega), of critical; exact for light damping
+    label : n labels FA1, SS1, T1, V1, ... numbered by frequency within each family
+    participation : (n, 4) share of the potential energy in FA, SS, T, V
+    height : (m,) heights of the element boundaries in m
+    shape : (n, m, 6) displacements (m) and rotations (rad) of the axis, unit peak in the mode's own
+        direction (translation, or rotation about z for torsion), positive there
+    mass_normalised : (n, m, 6) the same, with unit modal mass
+    vector : (nv, n) mass-normalised joint displacements
+    shape_peak_height_ratio : (n,) height of the peak from mudline (0) to yaw bearing (1)
+    """
+
+    frequency_hz: Array
+    damping_ratio: Array
+    label: list[str]
+    participation: Array
+    height: Array
+    shape: Array
+    mass_normalised: Array
+    vector: Array
+    shape_peak_height_ratio: Array
+
+    def index(self, label: str) -> int:
+        """Position of a label.
+
+        Raises
+        ------
+        InputError : no mode of that label among those computed
+        """
+        if label not in self.label:
+            raise InputError(
+                "mode", label, ", ".join(self.label), "Choose one of them, or compute more modes."
+            )
+        return self.label.index(label)
+
+
+def modes(system: System, n: int = 8, about: StaticResult | None = None) -> ModalResult:
+    """Natural modes with added mass, soil tangent and geometric stiffness of a static state.
+
+    Parameters
+    ----------
+    n : number of modes
+    about : static state; by default that under gravity alone
+
+    Raises
+    ------
+    InputError : n outside 1 ... number of degrees of freedom
+    SolverError : the static state was not found
+    """
+    if not 1 <= n <= system.nv:
+        raise InputError("n", n, f"1 to {system.nv}", "Ask for fewer modes, or use more elements.")
+    state = about or static(system)
+    rest = np.zeros(system.nv)
+    equations = system.equations(state.loads, ramp_time=np.inf)
+    stiffness, damping = equations.tangents(0.0, state.q, rest)
+    squares, vectors = natural_modes(stiffness, equations.mass(state.q), n)
+    omega = np.sqrt(np.maximum(squares, 0.0))
+    dissipation = np.sum(vectors * (damping @ vectors), axis=0)
+    participation = _participation(system, stiffness, vectors)
+    label, family = _labels(participation)
+    height = system.chain.boundary
+    shape = np.array([_axis_shape(equations, state.q, vector, height) for vector in vectors.T])
+    peak = np.empty(n)
+    unit = np.empty_like(shape)
+    normalised = np.empty_like(shape)
+    above_mudline = np.flatnonzero(height >= system.turbine.site.mudline - 1e-9)
+    for i in range(n):
+        shown = shape[i, :, _SHOWN[family[i]]]
+        at = above_mudline[np.argmax(np.abs(shown[above_mudline]))]
+        normalised[i] = shape[i] * np.sign(shown[at])
+        vectors[:, i] *= np.sign(shown[at])
+        unit[i] = shape[i] / shown[at]
+        peak[i] = _peak_height(height, np.abs(shown), int(at))
+    mudline, top = system.turbine.site.mudline, system.chain.top
+    return ModalResult(
+        frequency_hz=omega / (2 * np.pi),
+        damping_ratio=np.divide(dissipation, 2 * omega, out=np.zeros(n), where=omega > 0),
+        label=label,
+        participation=participation,
+        height=height,
+        shape=unit,
+        mass_normalised=normalised,
+        vector=vectors,
+        shape_peak_height_ratio=(peak - mudline) / (top - mudline),
+    )
+
+
+def _participation(system: System, stiffness: Array, vectors: Array) -> Array:
+    """(n, 4) share of each family's joints in the potential energy of each mode."""
+    work = vectors * (stiffness @ vectors)
+    kind = np.array([_FAMILY_OF_JOINT[name[-2:]] for name in system.chain.joint_name])
+    energy = np.array([work[kind == family].sum(axis=0) for family in FAMILIES]).T
+    return np.asarray(energy / energy.sum(axis=1, keepdims=True))
+
+
+def _labels(participation: Array) -> tuple[list[str], list[str]]:
+    families = list(FAMILIES)
+    family = [families[i] for i in np.argmax(participation, axis=1)]
+    label = [f"{name}{family[: i + 1].count(name)}" for i, name in enumerate(family)]
+    return label, family
+
+
+def _axis_shape(equations: Equations, q: Array, vector: Array, height: Array) -> Array:
+    """(m, 6) displacement and rotation of the axis per unit of a modal vector: its velocity field."""
+    motion = equations.chain_motion(q, vector)
+    body = equations.chain.body_at(height)
+    points = motion.points_at(height)
+    return np.concatenate([points.velocity, motion.twist[body, 3:]], axis=1)
+
+
+def _peak_height(height: Array, size: Array, at: int) -> float:
+    """Height of a maximum, refined by the parabola through it and its neighbours."""
+    if at in (0, len(height) - 1):
+        return float(height[at])
+    curve = np.polyfit(height[at - 1 : at + 2], size[at - 1 : at + 2], 2)
+    return float(-curve[1] / (2 * curve[0])) if curve[0] < 0 else float(height[at])

@@ -1,0 +1,156 @@
+"""Static equilibrium under gravity, soil and mean loads."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from offwind_pin.dynamics.section_loads import SectionCuts
+from offwind_pin.dynamics.system import Equations, System
+from offwind_pin.errors import SolverError
+from offwind_pin.loads.points import PointLoad
+from offwind_pin.loads.tower_top import constant_load
+from offwind_pin.solve.newton import newton
+from offwind_pin.turbines.definition import Array
+
+RELATIVE_TOLERANCE = 1e-12
+"""Largest entry of the residual over :func:`load_scale`."""
+
+
+@dataclass(frozen=True)
+class StaticResult:
+    """Equilibrium of a system.
+
+    Attributes
+    ----------
+    q : (nv,) joint displacements in m and rad
+    height : (m,) heights of the element boundaries in m
+    displacement : (m, 3) of the axis there, in m
+    rotation : (m, 3) small rotation of the axis about x and y (the third is zero), in rad
+    section_load : (m, 6) forces in N and moments in N m that the part above exerts on the part below
+    iterations : Newton steps
+    residual : largest entry of the residual over the load scale
+    """
+
+    q: Array
+    height: Array
+    displacement: Array
+    rotation: Array
+    section_load: Array
+    iterations: int
+    residual: float
+    mudline: float
+    loads: tuple[PointLoad, ...] = field(repr=False)
+
+    @property
+    def tower_top_displacement(self) -> Array:
+        """(3,) of the yaw bearing in m."""
+        return self.displacement[-1]
+
+    @property
+    def tower_top_rotation(self) -> Array:
+        """(3,) of the axis at the yaw bearing in rad."""
+        return self.rotation[-1]
+
+    @property
+    def mudline_displacement(self) -> Array:
+        """(3,) in m."""
+        return self.displacement[self._mudline]
+
+    @property
+    def mudline_load(self) -> Array:
+        """(6,) section load at the mudline in N and N m."""
+        return self.section_load[self._mudline]
+
+    @property
+    def _mudline(self) -> int:
+        return int(np.argmin(np.abs(self.height - self.mudline)))
+
+
+def static(
+    system: System,
+    tower_top_load: Array | None = None,
+    *,
+    loads: Sequence[PointLoad] = (),
+) -> StaticResult:
+    """Static equilibrium by Newton's method with the exact tangent.
+
+    Waves do not act; soil, gravity and the means of the given loads do.
+
+    Parameters
+    ----------
+    tower_top_load : (6,) Fx, Fy, Fz, Mx, My, Mz at the yaw bearing in N and N m, inertial frame
+    loads : further point loads
+
+    Raises
+    ------
+    SolverError : no equilibrium found, with the joint out of balance
+    """
+    acting = [*loads]
+    if tower_top_load is not None:
+        acting.append(constant_load(system.chain.top, np.asarray(tower_top_load, dtype=float)))
+    equations = system.equations(acting, ramp_time=np.inf)
+    rest = np.zeros(system.nv)
+    scale = load_scale(system)
+    result = newton(
+        lambda q: equations.residual(0.0, q, rest, rest),
+        lambda q: equations.tangents(0.0, q, rest)[0],
+        rest,
+        scale=scale,
+        relative_tolerance=RELATIVE_TOLERANCE,
+    )
+    if not result.converged:
+        joint, size = equations.worst_joint(result.residual)
+        raise SolverError(
+            "no static equilibrium found (is the soil strong enough for the load?)",
+            step=result.iterations,
+            joint=joint,
+            residual=size,
+        )
+    return _describe(system, equations, result.x, result.iterations, result.residual, scale, acting)
+
+
+def load_scale(system: System) -> float:
+    """Size in N m of the terms that a residual balances.
+
+    The weight of the rotor-nacelle assembly, on an arm of a tenth of the structure's height.
+    """
+    chain = system.chain
+    weight = system.turbine.site.gravity * chain.rna.mass
+    return float(weight * (chain.top - chain.base) / 10)
+
+
+def _describe(
+    system: System,
+    equations: Equations,
+    q: Array,
+    iterations: int,
+    residual: Array,
+    scale: float,
+    loads: Sequence[PointLoad],
+) -> StaticResult:
+    rest = np.zeros_like(q)
+    state = equations.evaluate(0.0, q, rest, rest)
+    cuts = SectionCuts(equations, system.chain.boundary)
+    points = state.motion.points(cuts.points)
+    return StaticResult(
+        q=q,
+        height=system.chain.boundary,
+        displacement=points.displacement,
+        rotation=axis_rotation(points.axis),
+        section_load=cuts.loads(state, q, rest, rest),
+        iterations=iterations,
+        residual=float(np.max(np.abs(residual))) / scale,
+        mudline=system.turbine.site.mudline,
+        loads=tuple(loads),
+    )
+
+
+def axis_rotation(axis: Array) -> Array:
+    """(..., 3) rotation of upward unit vectors about x and y in rad; torsion is not in it."""
+    rotation = np.zeros_like(axis)
+    rotation[..., 0] = np.arctan2(-axis[..., 1], axis[..., 2])
+    rotation[..., 1] = np.arctan2(axis[..., 0], axis[..., 2])
+    return rotation

@@ -1,0 +1,79 @@
+"""What the sea does to a system: the water that moves with it, and the waves that pass."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from offwind_pin.errors import InputError
+from offwind_pin.loads.morison import AddedMass, MorisonForce, Strips
+from offwind_pin.loads.waves import IrregularSea
+from offwind_pin.structure.section import outer_diameter
+from offwind_pin.turbines.definition import Turbine
+
+
+@dataclass(frozen=True)
+class StillWater:
+    """Water at rest: added mass, and drag on a structure that moves."""
+
+    def realise(self, turbine: Turbine) -> IrregularSea:
+        return IrregularSea(*np.zeros((3, 0)), turbine.site.water_depth, turbine.site.gravity)
+
+
+@dataclass(frozen=True)
+class IrregularWaves:
+    """Pierson-Moskowitz sea travelling along +x.
+
+    significant_height in m, peak_period in s; repeat_period in s should exceed the case's length.
+    """
+
+    significant_height: float
+    peak_period: float
+    seed: int
+    repeat_period: float
+
+    def __post_init__(self) -> None:
+        for name in ("significant_height", "peak_period", "repeat_period"):
+            value = getattr(self, name)
+            if not (np.isfinite(value) and value > 0):
+                raise InputError(f"waves, field {name}", value, "a positive number", "Correct it.")
+
+    def realise(self, turbine: Turbine) -> IrregularSea:
+        return IrregularSea.pierson_moskowitz(
+            self.significant_height,
+            self.peak_period,
+            depth=turbine.site.water_depth,
+            gravity=turbine.site.gravity,
+            repeat_period=self.repeat_period,
+            seed=self.seed,
+        )
+
+
+Sea = StillWater | IrregularWaves
+
+
+def wetted_strips(turbine: Turbine) -> Strips:
+    """Strips from the mudline to still water level, or to the yaw bearing where that is lower."""
+    height, length = Strips.between(turbine.site.mudline, min(0.0, turbine.yaw_bearing))
+    return Strips(height, length, outer_diameter(turbine, height))
+
+
+def added_mass(turbine: Turbine) -> AddedMass:
+    return AddedMass.of(
+        wetted_strips(turbine),
+        turbine.site.water_density,
+        turbine.hydrodynamics.added_mass_coefficient,
+    )
+
+
+def water_load(turbine: Turbine, sea: Sea) -> MorisonForce:
+    """Force of the water on the strips: waves, if there are any, and drag."""
+    strips = wetted_strips(turbine)
+    return MorisonForce(
+        strips,
+        sea.realise(turbine).kinematics_at(strips.height),
+        turbine.site.water_density,
+        turbine.hydrodynamics.added_mass_coefficient,
+        turbine.hydrodynamics.drag_coefficient,
+    )

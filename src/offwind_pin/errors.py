@@ -1,0 +1,75 @@
+"""The project's errors: one small hierarchy, each message naming the mistake and the remedy."""
+
+from typing import Any
+
+
+class OffwindError(Exception):
+    """Base of every error this package raises on purpose."""
+
+
+class InputError(OffwindError, ValueError):
+    """Something a user gave cannot be used.
+
+    The message names where it was found (file and field), what was received, what is allowed
+    and what to do about it.
+    """
+
+    def __init__(self, where: str, received: object, allowed: str, remedy: str) -> None:
+        self.where = where
+        self.received = received
+        self.allowed = allowed
+        self.remedy = remedy
+        super().__init__(f"{where}: got {_shorten(received)}; allowed: {allowed}. {remedy}")
+
+
+class SolverError(OffwindError, RuntimeError):
+    """A solve that did not converge, with the place where it stopped.
+
+    Attributes
+    ----------
+    time : simulated time of the failed step in s (``None`` for a static solve)
+    step : number of the failed step or iteration
+    joint : name of the joint with the largest residual
+    results : dataset of the results so far, or None
+    """
+
+    def __init__(
+        self,
+        reason: str,
+        *,
+        step: int,
+        joint: str,
+        residual: float,
+        time: float | None = None,
+        results: Any = None,
+    ) -> None:
+        self.reason = reason
+        self.time = time
+        self.step = step
+        self.joint = joint
+        self.residual = residual
+        self.results = results
+        at = "" if time is None else f" at t = {time:.6g} s,"
+        super().__init__(
+            f"{reason}:{at} step {step}; largest residual {residual:.3g} at joint {joint}"
+        )
+
+
+class InterruptedSimulation(OffwindError):
+    """The user stopped a simulation.
+
+    Attributes
+    ----------
+    time : last recorded time in s
+    results : dataset of the results so far
+    """
+
+    def __init__(self, time: float, results: Any) -> None:
+        self.time = time
+        self.results = results
+        super().__init__(f"stopped by the user at t = {time:.6g} s")
+
+
+def _shorten(value: object, limit: int = 120) -> str:
+    text = repr(value)
+    return text if len(text) <= limit else text[: limit - 3] + "..."

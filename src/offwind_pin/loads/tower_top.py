@@ -1,0 +1,136 @@
+"""Load histories at the yaw bearing: six components over time, from a file or generated."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from offwind_pin.errors import InputError
+from offwind_pin.loads.points import PointForces, PointMotion, PointTangents, zeros_like_points
+from offwind_pin.loads.soil_curves import to_numbers
+from offwind_pin.turbines.definition import Array
+
+COMPONENTS = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
+_LARGEST_LOAD = 1e10
+
+
+@dataclass(frozen=True)
+class LoadHistory:
+    """Samples of (Fx, Fy, Fz, Mx, My, Mz) in N and N m in the inertial frame.
+
+    time (t,) in s, rising; load (t, 6); origin says where the numbers come from, surrogate why they
+    stand in for others (None for a user's own history).
+    """
+
+    time: Array
+    load: Array
+    origin: str
+    surrogate: str | None = None
+
+    def mean(self, start: float, end: float) -> Array:
+        """(6,) time average of the linearly interpolated history between two times."""
+        inside = self.time[(self.time > start) & (self.time < end)]
+        nodes = np.concatenate([[start], inside, [end]])
+        return np.asarray(np.trapezoid(self.at(nodes), nodes, axis=0) / (end - start))
+
+    def at(self, time: Array | float) -> Array:
+        """(t, 6) load, or (6,) at a single time, by linear interpolation; its ends hold beyond."""
+        if len(self.time) == 1:
+            return np.asarray(self.load[np.zeros(np.shape(time), dtype=np.intp)])
+        upper = np.clip(np.searchsorted(self.time, time), 1, len(self.time) - 1)
+        start, end = self.time[upper - 1], self.time[upper]
+        share = np.clip((np.asarray(time) - start) / (end - start), 0.0, 1.0)[..., None]
+        return np.asarray((1 - share) * self.load[upper - 1] + share * self.load[upper])
+
+
+@dataclass(frozen=True)
+class TowerTopLoad:
+    """A load history applied at the yaw bearing; its departure from the mean rises at the start.
+
+    yaw_bearing : height in m
+    mean : (6,) load that acts in full from the start, in N and N m
+    """
+
+    yaw_bearing: float
+    history: LoadHistory
+    mean: Array
+    name: str = "tower_top"
+
+    @property
+    def height(self) -> Array:
+        return np.array([self.yaw_bearing])
+
+    def load(self, time: float, rise: float = 1.0) -> Array:
+        """(6,) applied load at one time."""
+        return np.asarray(self.mean + rise * (self.history.at(time) - self.mean))
+
+    def forces(self, time: float, motion: PointMotion, rise: float) -> PointForces:
+        load = self.load(time, rise)
+        return PointForces(load[None, :3], load[None, 3:])
+
+    def tangents(self, time: float, motion: PointMotion, rise: float) -> PointTangents:
+        return PointTangents(*zeros_like_points(1))
+
+
+def constant_load(yaw_bearing: float, load: Array) -> TowerTopLoad:
+    """A load (6,) in N and N m that does not change."""
+    history = LoadHistory(np.array([0.0]), load[None, :], origin="constant")
+    return TowerTopLoad(yaw_bearing, history, load)
+
+
+def read_load_history(path: Path) -> LoadHistory:
+    """Seven columns t, Fx, Fy, Fz, Mx, My, Mz in s, N and N m, as in OpenFAST's prescribed forces.
+
+    Columns are separated by blanks, tabs or commas; ``#``, ``!`` and ``%`` start a comment. Between
+    the samples the load is interpolated linearly.
+
+    Raises
+    ------
+    InputError : missing, empty or truncated file; a cell that is no number; times that do not rise;
+        loads beyond anything a turbine gives
+    """
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+    except FileNotFoundError:
+        raise InputError(str(path), "no such file", "an existing file", "Check the path.") from None
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(str(path), str(error), "a readable UTF-8 text file", "Check it.") from None
+    rows: list[tuple[float, ...]] = []
+    for line, raw in enumerate(text.splitlines(), 1):
+        data = re.split(r"[#!%]", raw, maxsplit=1)[0].strip()
+        if not data:
+            continue
+        row = to_numbers(path, line, re.split(r"[\s,;]+", data), 7)
+        if rows and row[0] <= rows[-1][0]:
+            raise InputError(
+                f"{path}, line {line}, column t",
+                row[0],
+                f"a time later than that of the row before ({rows[-1][0]} s)",
+                "Sort the rows by time and remove repeated ones.",
+            )
+        if max(map(abs, row[1:])) > _LARGEST_LOAD:
+            raise InputError(
+                f"{path}, line {line}",
+                max(row[1:], key=abs),
+                f"loads below {_LARGEST_LOAD:g} N or N m",
+                "Are the units N and N m?",
+            )
+        rows.append(row)
+    if len(rows) < 2:
+        raise InputError(
+            str(path), f"{len(rows)} rows", "two rows or more", "Is the file complete?"
+        )
+    values = np.array(rows)
+    return LoadHistory(values[:, 0], values[:, 1:], origin=path.name)
+
+
+def write_load_history(history: LoadHistory, path: Path) -> None:
+    """Write the seven-column file that :func:`read_load_history` reads."""
+    header = f"{history.origin}\n" + (
+        f"SURROGATE: {history.surrogate}\n" if history.surrogate else ""
+    )
+    header += "t Fx Fy Fz Mx My Mz  [s N N N N m N m N m]"
+    np.savetxt(path, np.column_stack([history.time, history.load]), fmt="%.9g", header=header)

@@ -1,0 +1,53 @@
+"""Files written whole or not at all."""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import xarray as xr
+
+_FULL_PRECISION = {"time", "height", "mudline_moment", "mudline_force", "tower_top_displacement"}
+
+
+@contextmanager
+def whole_file(path: Path) -> Iterator[Path]:
+    """A temporary path beside ``path`` that takes its place once the block ends well.
+
+    If the block fails, ``path`` is what it was before.
+    """
+    path.parent.mkdir(parents=True, exist_ok=True)
+    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.", suffix=path.suffix)
+    os.close(handle)
+    temporary = Path(name)
+    try:
+        yield temporary
+        temporary.chmod(0o644)
+        temporary.replace(path)
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+def write_text(path: Path, text: str) -> None:
+    with whole_file(path) as temporary:
+        temporary.write_text(text, encoding="utf-8")
+
+
+def write_json(path: Path, data: dict[str, Any]) -> None:
+    write_text(path, json.dumps(data, indent=2, allow_nan=False) + "\n")
+
+
+def write_netcdf(path: Path, data: xr.Dataset) -> None:
+    """Compressed NetCDF; channels over the whole height in single precision, the rest in double."""
+    encoding = {
+        name: {"zlib": True, "complevel": 1}
+        | ({} if name in _FULL_PRECISION or variable.ndim < 3 else {"dtype": "float32"})
+        for name, variable in data.data_vars.items()
+    }
+    with whole_file(path) as temporary:
+        data.to_netcdf(temporary, engine="netcdf4", encoding=encoding)

@@ -1,0 +1,66 @@
+"""Power spectral densities, band areas and peaks."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import signal
+
+from offwind_pin.errors import InputError
+
+Array = NDArray[np.float64]
+
+
+def power_spectral_density(values: Array, dt: float, segment: float = 200.0) -> tuple[Array, Array]:
+    """One-sided PSD by Welch's method: Hann windows, half overlapped, the mean removed.
+
+    Parameters
+    ----------
+    values : (t,) samples at equal intervals
+    dt : interval in s
+    segment : length of a window in s
+
+    Returns
+    -------
+    frequency : (f,) in Hz
+    density : (f,) in unit^2/Hz; its integral is the variance
+
+    Raises
+    ------
+    InputError : the signal is shorter than a segment
+    """
+    length = round(segment / dt)
+    if len(values) < length:
+        raise InputError(
+            "segment", f"{segment} s", f"at most the signal's {len(values) * dt:g} s", "Shorten it."
+        )
+    frequency, density = signal.welch(
+        values - np.mean(values), fs=1 / dt, window="hann", nperseg=length, detrend=False
+    )
+    return frequency, density
+
+
+def band_sum(frequency: Array, density: Array, low: float, high: float) -> float:
+    """Area under a PSD between two frequencies in Hz, by trapezoids with interpolated ends."""
+    inside = frequency[(frequency > low) & (frequency < high)]
+    nodes = np.concatenate([[low], inside, [high]])
+    return float(np.trapezoid(np.interp(nodes, frequency, density), nodes))
+
+
+def peaks(
+    frequency: Array, density: Array, low: float, high: float, prominence_db: float = 3.0
+) -> list[float]:
+    """Frequencies in Hz of the local maxima that rise above their surroundings, rising.
+
+    The prominence is measured on the logarithmic density; each place is refined by the parabola
+    through the maximum and its neighbours.
+    """
+    level = 10 * np.log10(np.maximum(density, np.finfo(float).tiny))
+    found, _ = signal.find_peaks(level, prominence=prominence_db)
+    places = []
+    for i in found:
+        if low <= frequency[i] <= high:
+            left, middle, right = level[i - 1 : i + 2]
+            shift = 0.5 * (left - right) / (left - 2 * middle + right)
+            places.append(float(frequency[i] + shift * (frequency[1] - frequency[0])))
+    return places

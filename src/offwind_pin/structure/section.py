@@ -1,0 +1,92 @@
+"""The support structure as a function of height: what lies between two heights, and its stiffness."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from offwind_pin.structure.frustum import AxialBody, Frustum
+from offwind_pin.turbines.definition import Array, Material, Member, Turbine
+
+_GAUSS_POINTS, _GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(8)
+
+
+def diameter_and_thickness(member: Member, z: Array) -> tuple[Array, Array]:
+    """Outer diameter and wall thickness in m at heights z."""
+    heights = [station.z for station in member.stations]
+    return (
+        np.interp(z, heights, [station.diameter for station in member.stations]),
+        np.interp(z, heights, [station.thickness for station in member.stations]),
+    )
+
+
+def outer_diameter(turbine: Turbine, z: Array) -> Array:
+    """Outer diameter in m at heights z; at a jump, that of the part above."""
+    diameter = np.empty_like(z)
+    for member in turbine.members:
+        inside = (z >= member.bottom) & (z <= member.top)
+        diameter[inside] = diameter_and_thickness(member, z[inside])[0]
+    return diameter
+
+
+def pieces(turbine: Turbine, low: float, high: float) -> Iterator[tuple[float, float, Member]]:
+    """Intervals between low and high within which every section dimension is linear in z."""
+    for member in turbine.members:
+        cuts = [low, *(station.z for station in member.stations), high]
+        inside = sorted({z for z in cuts if max(low, member.bottom) <= z <= min(high, member.top)})
+        for bottom, top in zip(inside, inside[1:], strict=False):
+            yield bottom, top, member
+
+
+def frusta(turbine: Turbine, low: float, high: float) -> list[tuple[float, Frustum]]:
+    """Hollow frusta that fill the interval, each with the height of its base."""
+    result = []
+    for bottom, top, member in pieces(turbine, low, high):
+        diameter, thickness = diameter_and_thickness(member, np.array([bottom, top]))
+        outer = diameter / 2
+        inner = outer - thickness
+        density = turbine.materials[member.material].density
+        result.append((bottom, Frustum(top - bottom, *outer, *inner, density)))
+    return result
+
+
+def lump(turbine: Turbine, low: float, high: float) -> AxialBody:
+    """Rigid body of everything between two heights, point masses included.
+
+    A point mass counts where low <= z < high; one at the yaw bearing belongs to the last interval.
+    """
+    parts = [frustum.lump(base) for base, frustum in frusta(turbine, low, high)]
+    for mass in turbine.point_masses:
+        if low <= mass.z < high or mass.z == high == turbine.yaw_bearing:
+            transverse = (mass.inertia[0] + mass.inertia[1]) / 2
+            parts.append(AxialBody(mass.mass, mass.z, transverse, mass.inertia[2]))
+    return AxialBody.combine(parts)
+
+
+def bending_stiffness(member: Member, material: Material, z: Array) -> Array:
+    """EI in N m2 at heights z."""
+    outer, thickness = diameter_and_thickness(member, z)
+    inner = outer - 2 * thickness
+    return np.asarray(material.youngs_modulus * np.pi / 64 * (outer**4 - inner**4))
+
+
+def torsional_stiffness(member: Member, material: Material, z: Array) -> Array:
+    """GJ in N m2 at heights z."""
+    ratio = 2 * material.shear_modulus / material.youngs_modulus
+    return np.asarray(ratio * bending_stiffness(member, material, z))
+
+
+def flexibility(turbine: Turbine, low: float, high: float) -> tuple[float, float]:
+    """Integrals of 1/EI and 1/GJ over an interval, in rad/(N m).
+
+    Eight-point Gauss over each linear piece: exact to rounding for any taper a tower has.
+    """
+    bending = torsion = 0.0
+    for bottom, top, member in pieces(turbine, low, high):
+        material = turbine.materials[member.material]
+        half = (top - bottom) / 2
+        z = bottom + half * (1 + _GAUSS_POINTS)
+        bending += half * float(_GAUSS_WEIGHTS @ (1 / bending_stiffness(member, material, z)))
+        torsion += half * float(_GAUSS_WEIGHTS @ (1 / torsional_stiffness(member, material, z)))
+    return bending, torsion

@@ -1,0 +1,1 @@
+"""Turbine definitions: typed models, the shipped library, the reader."""

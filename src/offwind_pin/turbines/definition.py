@@ -1,0 +1,350 @@
+"""What a turbine and its site are: typed, frozen, SI.
+
+A file carries units in its keys (``diameter_m``); in Python the same quantity is plain
+(``diameter``). Axes: x downwind, y left looking downwind, z up from still water level.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
+
+Array = NDArray[np.float64]
+
+
+def _reject_bool(value: Any) -> Any:
+    if isinstance(value, bool):
+        raise ValueError("a number is needed, not true or false")
+    return value
+
+
+Number = Annotated[float, BeforeValidator(_reject_bool), Field(allow_inf_nan=False)]
+Positive = Annotated[Number, Field(gt=0)]
+NonNegative = Annotated[Number, Field(ge=0)]
+Vector3 = tuple[Number, Number, Number]
+Vector6 = tuple[Number, Number, Number, Number, Number, Number]
+
+
+class Definition(BaseModel):
+    """Base of every definition: frozen, unknown keys rejected, file keys carry units."""
+
+    model_config = ConfigDict(
+        frozen=True, extra="forbid", validate_by_name=True, validate_by_alias=True
+    )
+
+    source: str | None = Field(default=None, description="where the numbers come from")
+
+
+class Material(Definition):
+    """Isotropic linear material."""
+
+    youngs_modulus: Annotated[Positive, Field(ge=1e6, le=1e13)] = Field(alias="youngs_modulus_pa")
+    shear_modulus: Annotated[Positive, Field(ge=1e6, le=1e13)] = Field(alias="shear_modulus_pa")
+    density: Annotated[Positive, Field(ge=100, le=25e3)] = Field(alias="density_kg_per_m3")
+
+
+class Station(Definition):
+    """Circular hollow section at one height; between stations both numbers vary linearly."""
+
+    z: Number = Field(alias="z_m")
+    diameter: Annotated[Positive, Field(le=50)] = Field(alias="diameter_m")
+    thickness: Annotated[Positive, Field(le=1)] = Field(alias="thickness_m")
+
+    @model_validator(mode="after")
+    def _wall_fits(self) -> Station:
+        if self.thickness > self.diameter / 2:
+            raise ValueError(
+                f"the wall thickness {self.thickness} m is larger than the radius "
+                f"{self.diameter / 2} m; thickness must not exceed half the diameter"
+            )
+        return self
+
+
+class Member(Definition):
+    """Part of the support structure between its lowest and highest station."""
+
+    name: Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$")]
+    material: str
+    stations: Annotated[tuple[Station, ...], Field(min_length=2)]
+
+    @model_validator(mode="after")
+    def _stations_rise(self) -> Member:
+        heights = [station.z for station in self.stations]
+        for lower, upper in zip(heights, heights[1:], strict=False):
+            if upper <= lower:
+                raise ValueError(
+                    f"stations must rise strictly in z_m, but {upper} follows {lower}; "
+                    "sort them from the lowest to the highest"
+                )
+        return self
+
+    @property
+    def bottom(self) -> float:
+        return self.stations[0].z
+
+    @property
+    def top(self) -> float:
+        return self.stations[-1].z
+
+
+class PointMass(Definition):
+    """Mass on the axis of the structure (flange, platform, transition piece)."""
+
+    name: str
+    z: Number = Field(alias="z_m")
+    mass: NonNegative = Field(alias="mass_kg")
+    inertia: tuple[NonNegative, NonNegative, NonNegative] = Field(
+        alias="inertia_kg_m2", default=(0.0, 0.0, 0.0)
+    )
+
+
+class RigidBodyRNA(Definition):
+    """Rotor-nacelle assembly as one rigid body; offsets from the yaw bearing."""
+
+    kind: Literal["rigid_body"]
+    mass: Positive = Field(alias="mass_kg")
+    center_of_mass: Vector3 = Field(alias="center_of_mass_m")
+    inertia: tuple[Vector3, Vector3, Vector3] = Field(alias="inertia_about_center_of_mass_kg_m2")
+
+    @model_validator(mode="after")
+    def _inertia_is_physical(self) -> RigidBodyRNA:
+        tensor = np.array(self.inertia)
+        if not np.allclose(tensor, tensor.T, rtol=1e-9, atol=1e-6 * np.abs(tensor).max()):
+            raise ValueError(
+                "the inertia tensor is not symmetric; give the same value at ij and ji"
+            )
+        principal = np.linalg.eigvalsh(tensor)
+        if principal[0] <= 0 or principal[2] > principal[0] + principal[1]:
+            raise ValueError(
+                f"principal moments {principal.tolist()} kg m2 cannot belong to a rigid body; each "
+                "must be positive and at most the sum of the other two"
+            )
+        return self
+
+
+class Blade(Definition):
+    """Mass per length of one blade over its normalised span."""
+
+    length: Positive = Field(alias="length_m")
+    span_fraction: Annotated[tuple[NonNegative, ...], Field(min_length=2)]
+    mass_density: Annotated[tuple[NonNegative, ...], Field(min_length=2)] = Field(
+        alias="mass_density_kg_per_m"
+    )
+
+    @model_validator(mode="after")
+    def _table_is_complete(self) -> Blade:
+        if len(self.span_fraction) != len(self.mass_density):
+            raise ValueError(
+                f"span_fraction has {len(self.span_fraction)} entries and mass_density_kg_per_m "
+                f"{len(self.mass_density)}; give one density for each fraction"
+            )
+        if self.span_fraction[0] != 0 or self.span_fraction[-1] != 1:
+            raise ValueError("span_fraction must run from 0 (root) to 1 (tip)")
+        if np.any(np.diff(self.span_fraction) <= 0):
+            raise ValueError("span_fraction must rise strictly; sort the table from root to tip")
+        return self
+
+
+class RotorNacelleRNA(Definition):
+    """Rotor and nacelle inputs, to be lumped into one rigid body (rotor parked and locked).
+
+    Lengths and signs follow OpenFAST's ElastoDyn: overhang negative for an upwind rotor.
+    """
+
+    kind: Literal["rotor_nacelle"]
+    blades: Annotated[int, Field(ge=1, le=6)]
+    blade: Blade
+    hub_radius: Positive = Field(alias="hub_radius_m")
+    precone: Number = Field(alias="precone_deg")
+    hub_center_of_mass: Number = Field(alias="hub_center_of_mass_m")
+    overhang: Number = Field(alias="overhang_m")
+    shaft_tilt: Number = Field(alias="shaft_tilt_deg")
+    tower_to_shaft: Number = Field(alias="tower_to_shaft_m")
+    hub_mass: NonNegative = Field(alias="hub_mass_kg")
+    hub_inertia: NonNegative = Field(alias="hub_inertia_kg_m2")
+    generator_inertia: NonNegative = Field(alias="generator_inertia_kg_m2")
+    nacelle_mass: NonNegative = Field(alias="nacelle_mass_kg")
+    nacelle_yaw_inertia: NonNegative = Field(alias="nacelle_yaw_inertia_kg_m2")
+    nacelle_center_of_mass: Vector3 = Field(alias="nacelle_center_of_mass_m")
+    yaw_bearing_mass: NonNegative = Field(alias="yaw_bearing_mass_kg")
+
+
+class Site(Definition):
+    """Water and gravity. The mudline lies at z = -water_depth."""
+
+    water_depth: Positive = Field(alias="water_depth_m")
+    water_density: Annotated[Positive, Field(ge=900, le=1200)] = Field(
+        alias="water_density_kg_per_m3"
+    )
+    gravity: Annotated[Positive, Field(ge=1, le=30)] = Field(alias="gravity_m_per_s2")
+
+    @property
+    def mudline(self) -> float:
+        return -self.water_depth
+
+
+class Hydrodynamics(Definition):
+    """Morison coefficients, constant over depth."""
+
+    added_mass_coefficient: Annotated[NonNegative, Field(le=10)]
+    drag_coefficient: Annotated[NonNegative, Field(le=10)]
+
+
+class CoupledSprings(Definition):
+    """6x6 stiffness of pile and soil at the mudline, order x, y, z, rx, ry, rz (N, m, rad)."""
+
+    stiffness: tuple[Vector6, Vector6, Vector6, Vector6, Vector6, Vector6]
+
+    @model_validator(mode="after")
+    def _positive_definite(self) -> CoupledSprings:
+        matrix = np.array(self.stiffness)
+        if not np.allclose(matrix, matrix.T, rtol=1e-9, atol=1e-9 * np.abs(matrix).max()):
+            raise ValueError("the 6x6 stiffness is not symmetric; give the same value at ij and ji")
+        if np.linalg.eigvalsh(matrix)[0] <= 0:
+            raise ValueError(
+                "the 6x6 stiffness is not positive definite, so that a motion is unresisted; "
+                "check the signs of the coupling terms (x-ry negative, y-rx positive)"
+            )
+        return self
+
+
+class DepthLine(Definition):
+    """Quantity that grows linearly with depth below the mudline: at_mudline + gradient * depth."""
+
+    at_mudline: NonNegative = 0.0
+    gradient: NonNegative = 0.0
+
+    @model_validator(mode="after")
+    def _not_zero(self) -> DepthLine:
+        if self.at_mudline == 0 and self.gradient == 0:
+            raise ValueError("at_mudline and gradient are both zero; one of them must be positive")
+        return self
+
+    def at(self, depth: Array) -> Array:
+        """Value at depths below the mudline in m."""
+        return np.asarray(self.at_mudline + self.gradient * depth)
+
+
+class LinearModulus(Definition):
+    """p = k y, with the modulus k in N/m per m of pile."""
+
+    kind: Literal["linear"]
+    modulus: DepthLine = Field(alias="modulus_n_per_m2")
+
+
+class TanhCurve(Definition):
+    """p = p_u tanh(k y / p_u), with initial modulus k in N/m2 and ultimate resistance p_u in N/m."""
+
+    kind: Literal["tanh"]
+    initial_modulus: DepthLine = Field(alias="initial_modulus_n_per_m2")
+    ultimate_resistance: DepthLine = Field(alias="ultimate_resistance_n_per_m")
+
+
+class CurveTable(Definition):
+    """p-y curves by depth from a CSV file with columns ``depth_m, y_m, p_n_per_m``."""
+
+    kind: Literal["table"]
+    file: Path
+
+
+class SoilDashpot(Definition):
+    """Dashpot beside each spring: C_s(y) = K_s(y) damping_factor / (pi load_frequency)."""
+
+    damping_factor: Annotated[NonNegative, Field(le=2)]
+    load_frequency: Annotated[Positive, Field(le=100)] = Field(alias="load_frequency_hz")
+
+
+class DistributedSprings(Definition):
+    """Uncoupled lateral p-y springs along the pile, vertical and torsional springs at the toe."""
+
+    nodes: Annotated[int, Field(ge=2, le=2000)]
+    curve: Annotated[LinearModulus | TanhCurve | CurveTable, Field(discriminator="kind")]
+    toe_vertical_stiffness: Positive = Field(alias="toe_vertical_stiffness_n_per_m")
+    toe_torsional_stiffness: Positive = Field(alias="toe_torsional_stiffness_nm_per_rad")
+    dashpot: SoilDashpot | None = None
+    surrogate: str | None = Field(
+        default=None, description="why these curves stand in for the real ones; shown everywhere"
+    )
+
+
+class Soil(Definition):
+    """Descriptions of the same ground, one for each foundation that needs one."""
+
+    coupled_springs: CoupledSprings | None = None
+    distributed_springs: DistributedSprings | None = None
+
+
+class DampingCalibration(Definition):
+    """Structural damping, calibrated so that modes of the supported structure reach given ratios."""
+
+    foundation: Literal["clamped", "coupled_springs"]
+    still_water: bool
+    ratios: dict[
+        Annotated[str, Field(pattern=r"^(FA|SS|T|V)[1-9]$")], Annotated[NonNegative, Field(lt=1)]
+    ] = Field(alias="ratios_of_critical", min_length=1)
+
+
+class Turbine(Definition):
+    """A monopile wind turbine and its site."""
+
+    name: str
+    description: str = ""
+    site: Site
+    materials: dict[str, Material]
+    members: Annotated[tuple[Member, ...], Field(min_length=1)]
+    point_masses: tuple[PointMass, ...] = ()
+    rna: Annotated[RigidBodyRNA | RotorNacelleRNA, Field(discriminator="kind")]
+    hydrodynamics: Hydrodynamics
+    soil: Soil
+    structural_damping: DampingCalibration | None = None
+
+    @model_validator(mode="after")
+    def _parts_fit(self) -> Turbine:
+        for member in self.members:
+            if member.material not in self.materials:
+                raise ValueError(
+                    f"member {member.name} is made of {member.material!r}, which materials does not "
+                    f"list (it has {', '.join(self.materials)})"
+                )
+        names = [member.name for member in self.members]
+        if len(set(names)) < len(names) or "pile" in names:
+            raise ValueError(
+                f"members are named {', '.join(names)}; names must differ, and 'pile' is kept for "
+                "what lies below the mudline"
+            )
+        for lower, upper in zip(self.members, self.members[1:], strict=False):
+            if upper.bottom != lower.top:
+                raise ValueError(
+                    f"member {upper.name} starts at z_m = {upper.bottom}, but {lower.name} ends at "
+                    f"{lower.top}; list members from the toe upwards, each starting where the last ends"
+                )
+        if self.site.mudline < self.toe:
+            raise ValueError(
+                f"the mudline (z = {self.site.mudline} m, from water_depth_m) lies below the pile toe "
+                f"(z = {self.toe} m); lower the toe or reduce the water depth"
+            )
+        if self.site.mudline >= self.yaw_bearing:
+            raise ValueError(
+                "the whole structure lies below the mudline; check z_m of the stations"
+            )
+        for mass in self.point_masses:
+            if not self.toe <= mass.z <= self.yaw_bearing:
+                raise ValueError(
+                    f"point mass {mass.name!r} at z_m = {mass.z} is off the structure, which runs "
+                    f"from {self.toe} to {self.yaw_bearing} m"
+                )
+        return self
+
+    @property
+    def toe(self) -> float:
+        """Height of the lowest station in m."""
+        return self.members[0].bottom
+
+    @property
+    def yaw_bearing(self) -> float:
+        """Height of the highest station in m, where the rotor-nacelle assembly sits."""
+        return self.members[-1].top

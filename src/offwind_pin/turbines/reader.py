@@ -1,0 +1,173 @@
+"""Reading of YAML definitions, with errors that name file, field, value, what is allowed, remedy."""
+
+from __future__ import annotations
+
+import difflib
+from importlib import resources
+from pathlib import Path
+from typing import Any, TypeVar
+
+import yaml
+from pydantic import BaseModel, ValidationError
+
+from offwind_pin.errors import InputError
+from offwind_pin.turbines.definition import CurveTable, Turbine
+
+Model = TypeVar("Model", bound=BaseModel)
+
+
+def shipped_turbines() -> list[str]:
+    """Names of the turbines that come with the package."""
+    library = resources.files("offwind_pin.turbines") / "library"
+    return sorted(
+        entry.name.removesuffix(".yaml")
+        for entry in library.iterdir()
+        if entry.name.endswith(".yaml")
+    )
+
+
+def load_turbine(name_or_path: str | Path) -> Turbine:
+    """Turbine definition by shipped name or from a YAML file.
+
+    Parameters
+    ----------
+    name_or_path : a shipped name (``"oc6_phase2"``) or the path of a YAML file
+
+    Raises
+    ------
+    InputError : the name is unknown, or the file cannot be read or understood
+    """
+    path = find_definition(name_or_path, shipped_turbines(), "turbine")
+    turbine = read_model(path, Turbine)
+    return _with_absolute_paths(turbine, path.parent)
+
+
+def find_definition(name_or_path: str | Path, shipped: list[str], kind: str) -> Path:
+    """Path of a shipped turbine or case by name, or of the user's own file."""
+    text = str(name_or_path)
+    if text in shipped:
+        folder = {"turbine": "turbines/library", "case": "campaign/oc6_phase2"}[kind]
+        with resources.as_file(resources.files("offwind_pin")) as package:
+            return Path(package) / folder / f"{text.removeprefix('oc6-')}.yaml"
+    path = Path(text)
+    if path.is_file():
+        return path
+    near = difflib.get_close_matches(text, shipped, n=1)
+    hint = f"Did you mean {near[0]!r}?" if near else "Check the path."
+    raise InputError(
+        kind, text, f"a shipped name ({', '.join(shipped)}) or the path of a YAML file", hint
+    )
+
+
+def read_model(path: Path, model: type[Model]) -> Model:
+    """A pydantic model from a YAML file.
+
+    Raises
+    ------
+    InputError : the file is empty, not YAML, or does not fit the model
+    """
+    data = _read_yaml(path)
+    try:
+        return model.model_validate(data)
+    except ValidationError as error:
+        raise _input_error(path, data, error, model) from None
+
+
+class _UniqueKeyLoader(yaml.SafeLoader):
+    """Safe loader that refuses a key given twice (YAML would keep the last in silence)."""
+
+
+def _mapping(loader: _UniqueKeyLoader, node: yaml.MappingNode) -> dict[Any, Any]:
+    seen: dict[Any, Any] = {}
+    for key_node, value_node in node.value:
+        key = loader.construct_object(key_node, deep=True)
+        if isinstance(key, list | dict):
+            raise yaml.MarkedYAMLError(problem="a key must be a name", problem_mark=node.start_mark)
+        if key in seen:
+            raise yaml.MarkedYAMLError(
+                problem=f"key {key!r} is given twice", problem_mark=key_node.start_mark
+            )
+        seen[key] = loader.construct_object(value_node, deep=True)
+    return seen
+
+
+_UniqueKeyLoader.add_constructor(yaml.resolver.BaseResolver.DEFAULT_MAPPING_TAG, _mapping)
+
+
+def _read_yaml(path: Path) -> dict[str, Any]:
+    try:
+        data = yaml.load(path.read_text(encoding="utf-8"), Loader=_UniqueKeyLoader)  # noqa: S506
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(
+            str(path), str(error), "a readable UTF-8 text file", "Check the file and its encoding."
+        ) from None
+    except yaml.YAMLError as error:
+        mark = getattr(error, "problem_mark", None)
+        place = f"{path}, line {mark.line + 1}" if mark else str(path)
+        problem = getattr(error, "problem", None) or "not YAML"
+        raise InputError(
+            place, problem, "valid YAML", "Correct the line; is the file complete?"
+        ) from None
+    if data is None:
+        raise InputError(str(path), "an empty file", "a YAML mapping", "Fill in the definition.")
+    if not isinstance(data, dict):
+        raise InputError(
+            str(path), data, "a YAML mapping of keys to values", "Start from a shipped file."
+        )
+    return data
+
+
+def _input_error(
+    path: Path, data: object, error: ValidationError, model: type[BaseModel]
+) -> InputError:
+    """The first thing pydantic found wrong, told to a person."""
+    found = sorted(error.errors(), key=lambda item: item["type"] != "extra_forbidden")
+    first = found[0]
+    location = _without_union_tags(first["loc"], data)
+    field = ".".join(str(part) for part in location) or "the file"
+    more = f" ({len(found) - 1} more in this file.)" if len(found) > 1 else ""
+    where = f"{path}, field {field}"
+    if first["type"] == "extra_forbidden":
+        known = _known_names(model)
+        near = difflib.get_close_matches(str(location[-1]), known, n=1, cutoff=0.5)
+        remedy = f"Did you mean {near[0]!r}?" if near else "Remove it."
+        return InputError(where, "an unknown key", "the documented keys", remedy + more)
+    if first["type"] == "missing":
+        return InputError(where, "nothing", "a value (the field is required)", "Add it." + more)
+    message = first["msg"].removeprefix("Value error, ")
+    context = first.get("ctx", {})
+    remedy = "Check the unit named in the key." if {"ge", "gt", "le", "lt"} & set(context) else ""
+    return InputError(where, first["input"], message, (remedy or "Correct the value.") + more)
+
+
+def _without_union_tags(location: tuple[int | str, ...], data: object) -> tuple[int | str, ...]:
+    """Drop the tags pydantic puts in for the chosen member of a union: no user typed them."""
+    kept: list[int | str] = []
+    for i, part in enumerate(location):
+        if isinstance(data, dict) and part not in data and i < len(location) - 1:
+            continue
+        kept.append(part)
+        if (isinstance(data, dict) and part in data) or (
+            isinstance(data, list) and isinstance(part, int) and part < len(data)
+        ):
+            data = data[part]  # type: ignore[index]
+    return tuple(kept)
+
+
+def _known_names(model: type[BaseModel]) -> list[str]:
+    """Every key that the model and the models below it accept."""
+    schema = model.model_json_schema(by_alias=True)
+    parts = [schema, *schema.get("$defs", {}).values()]
+    return sorted({name for part in parts for name in part.get("properties", {})})
+
+
+def _with_absolute_paths(turbine: Turbine, folder: Path) -> Turbine:
+    """File names inside a definition are relative to that definition."""
+    springs = turbine.soil.distributed_springs
+    if springs is None or not isinstance(springs.curve, CurveTable):
+        return turbine
+    curve = springs.curve.model_copy(update={"file": (folder / springs.curve.file).absolute()})
+    springs = springs.model_copy(update={"curve": curve})
+    return turbine.model_copy(
+        update={"soil": turbine.soil.model_copy(update={"distributed_springs": springs})}
+    )
