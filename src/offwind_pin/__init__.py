@@ -11,6 +11,7 @@ from offwind_pin.analysis.build import build
 from offwind_pin.analysis.modal import ModalResult, modes
 from offwind_pin.analysis.static import StaticResult, static
 from offwind_pin.analysis.transient import simulate
+from offwind_pin.campaign.export import export_urdf
 from offwind_pin.dynamics.sea import IrregularWaves, StillWater
 from offwind_pin.dynamics.system import System
 from offwind_pin.errors import InputError, InterruptedSimulation, OffwindError, SolverError
@@ -33,6 +34,7 @@ __all__ = [
     "System",
     "Turbine",
     "build",
+    "export_urdf",
     "load_turbine",
     "modes",
     "read_load_history",

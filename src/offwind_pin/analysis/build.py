@@ -8,6 +8,7 @@ from offwind_pin.analysis.damping import StructuralDamping, calibrate_damping
 from offwind_pin.dynamics.foundations import make_foundation
 from offwind_pin.dynamics.sea import Sea, StillWater
 from offwind_pin.dynamics.system import System
+from offwind_pin.errors import InputError
 from offwind_pin.structure.chain import Elements, Stiffness, build_chain
 from offwind_pin.structure.model import Scratch, build_model
 from offwind_pin.turbines.definition import Turbine
@@ -47,7 +48,13 @@ def build(
 def structural_damping(turbine: Turbine) -> StructuralDamping:
     """Damping factors of a turbine, calibrated on the foundation and in the water it names."""
     calibration = turbine.structural_damping
-    assert calibration is not None
+    if calibration is None:
+        raise InputError(
+            f"turbine {turbine.name}, field structural_damping",
+            "nothing",
+            "ratios of critical for named modes",
+            "Add the block, or leave the structure undamped.",
+        )
     sea = StillWater() if calibration.still_water else None
     undamped = _assemble(turbine, calibration.foundation, sea, None, "flexibility")
     return calibrate_damping(undamped, calibration)

@@ -126,7 +126,7 @@ def _labels(participation: Array) -> tuple[list[str], list[str]]:
 
 
 def _axis_shape(equations: Equations, q: Array, vector: Array, height: Array) -> Array:
-    """(m, 6) displacement and rotation of the axis per unit of a modal vector: its velocity field."""
+    """(m, 6) displacement and rotation of the axis per unit of a modal vector."""
     motion = equations.chain_motion(q, vector)
     body = equations.chain.body_at(height)
     points = motion.points_at(height)

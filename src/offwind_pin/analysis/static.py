@@ -29,7 +29,7 @@ class StaticResult:
     height : (m,) heights of the element boundaries in m
     displacement : (m, 3) of the axis there, in m
     rotation : (m, 3) small rotation of the axis about x and y (the third is zero), in rad
-    section_load : (m, 6) forces in N and moments in N m that the part above exerts on the part below
+    section_load : (m, 6) force (N) and moment (N m) that the part above exerts on the part below
     iterations : Newton steps
     residual : largest entry of the residual over the load scale
     """

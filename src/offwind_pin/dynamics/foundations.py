@@ -1,8 +1,8 @@
 """Foundations behind one interface: where the chain starts, what holds its root, which springs act.
 
 A foundation is three answers. Clamped and apparent fixity start at a height and hold the root
-rigidly; coupled springs and a macro-element start at the mudline and restrain the root's six joints;
-distributed springs start at the toe, with a restraint there and point loads along the pile.
+rigidly; coupled springs and a macro-element start at the mudline and restrain the root's six
+joints; distributed springs start at the toe, with a restraint there and point loads along the pile.
 """
 
 from __future__ import annotations
@@ -66,6 +66,16 @@ class Foundation:
     root: RootRestraint | None = None
     soil: tuple[PointLoad, ...] = ()
     surrogate: str | None = None
+
+    def describe(self) -> dict[str, object]:
+        """Plain data for the sidecar: what holds the root and where the soil acts."""
+        return {
+            "name": self.name,
+            "base_z_m": self.base,
+            "root": None if self.root is None else self.root.describe(),
+            "soil_nodes_z_m": [height for load in self.soil for height in load.height.tolist()],
+            "surrogate": self.surrogate,
+        }
 
 
 def clamped(turbine: Turbine) -> Foundation:

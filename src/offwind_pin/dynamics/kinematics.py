@@ -1,8 +1,8 @@
 """Motion of points on the chain's axis, and point forces as generalised forces, in O(N).
 
 The world-frame Jacobian S that Pinocchio fills in one call holds, in column j, the spatial velocity
-of the world's origin per unit velocity of joint j. The chain is serial, so the spatial velocity of a
-body is a cumulative sum over the columns below it, and the generalised force of joint j is the
+of the world's origin per unit velocity of joint j. The chain is serial, so the spatial velocity of
+a body is a cumulative sum over the columns below it, and the generalised force of joint j is the
 product of column j with the sum of all wrenches above it. Nothing loops over points.
 """
 
@@ -21,7 +21,7 @@ from offwind_pin.turbines.definition import Array
 class AxisPoints:
     """Material points on the axis of a chain.
 
-    height (n,) in m; body (n,) index of the carrying body; offset (n,) along it from its frame in m.
+    height (n,) in m; body (n,) index of the carrying body; offset (n,) along it in m.
     """
 
     height: Array

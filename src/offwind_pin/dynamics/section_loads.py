@@ -85,7 +85,7 @@ class SectionCuts:
         )
 
     def _needed_by_rna(self, state: Evaluation, q: Array) -> tuple[Array, Array, Array]:
-        """Force (3,) and moment (3,) about the yaw bearing that the assembly needs, and its place."""
+        """Force (3,) and moment (3,) at the yaw bearing that the assembly needs; its place."""
         chain = self.equations.chain
         rotation = self.equations.top_rotation(q)
         bearing = state.motion.origin[-1] + (chain.top - chain.origin[-1]) * state.motion.axis[-1]

@@ -1,4 +1,4 @@
-"""The system: chain, foundation, sea and loads as one residual, one mass matrix, one set of tangents.
+"""Chain, foundation, sea and loads as one system: residual, mass matrix, tangents.
 
     r(t, q, v, a) = rnea(q, v, a) + K q + D v + R(q, v) - Q(t, q, v, a)
 
@@ -9,6 +9,7 @@ acts through the chain's axis.
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
@@ -100,7 +101,7 @@ class Equations:
         self.points = AxisPoints.on(system.chain, np.concatenate(heights))
         edges = np.cumsum([0, *(len(h) for h in heights)])
         self._wet = slice(0, int(edges[1]))
-        self._parts = [slice(int(a), int(b)) for a, b in zip(edges[1:], edges[2:], strict=False)]
+        self._parts = [slice(int(a), int(b)) for a, b in itertools.pairwise(edges)]
 
     def residual(self, time: float, q: Array, v: Array, a: Array) -> Array:
         """(nv,) generalised forces out of balance, in N and N m."""

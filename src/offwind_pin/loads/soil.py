@@ -34,7 +34,7 @@ class SoilSprings:
 
     @staticmethod
     def along_pile(springs: DistributedSprings, mudline: float, toe: float) -> SoilSprings:
-        """Nodes from the mudline to the toe at equal distances; the end nodes have half a length."""
+        """Nodes at equal distances from mudline to toe; the end nodes have half a length."""
         height = np.linspace(mudline, toe, springs.nodes)
         length = np.full(springs.nodes, (mudline - toe) / (springs.nodes - 1))
         length[[0, -1]] /= 2

@@ -16,6 +16,9 @@ from offwind_pin.loads.tower_top import LoadHistory
 from offwind_pin.turbines.definition import Array, RotorNacelleRNA
 from offwind_pin.turbines.rna import rotor_apex, rotor_radius
 
+_STREAM = 2
+"""Keeps the random numbers of waves and wind apart when a case gives both one seed."""
+
 AIR_DENSITY = 1.225
 """kg/m3, the standard atmosphere at sea level."""
 
@@ -103,8 +106,8 @@ class SyntheticWind:
     blade_passing_frequency : 3P in Hz
     turbulence_intensity : standard deviation of the wind over its mean
     harmonics : standard deviation of the thrust at 3P, 6P, 9P over the mean thrust
-    coherent_fraction : share of the variance at 3P that is a pure tone (shear and tower shadow), its
-        square that at 6P, its cube that at 9P; the rest is turbulence cut by the blades
+    coherent_fraction : share of the variance at 3P that is a pure tone (shear and tower shadow);
+        its square that at 6P, its cube that at 9P; the rest is turbulence cut by the blades
     """
 
     wind_speed: float
@@ -114,15 +117,16 @@ class SyntheticWind:
     coherent_fraction: float = 0.3
     seed: int = 1
     surrogate: str = field(
-        default="synthetic: the benchmark's own tower-top load history is not public in a form we hold",
+        default="synthetic: the benchmark's own tower-top load history is not to hand",
         init=False,
     )
 
     def generate(
         self, rna: RotorNacelleRNA, *, duration: float, repeat_period: float, dt: float = 0.02
     ) -> LoadHistory:
-        """A history from 0 to ``duration``, periodic in ``repeat_period``, so that its mean over any
-        whole period is the mean load exactly.
+        """A history from 0 to ``duration``, periodic in ``repeat_period``.
+
+        Its mean over any whole period is the mean load exactly.
 
         The wind varies with a Kaimal spectrum, averaged over the rotor by Vickery's aerodynamic
         admittance 1 / (1 + (2 f sqrt(A) / U)^(4/3)); thrust and torque follow it quasi-steadily at
@@ -131,7 +135,7 @@ class SyntheticWind:
         pattern of n waves around the rotor have the size R / n and pass in R / (n U).
         """
         rotor = operate_rotor(rna, self.wind_speed, self.blade_passing_frequency)
-        rng = np.random.default_rng(self.seed)
+        rng = np.random.default_rng((self.seed, _STREAM))
         count = round(repeat_period / dt)
         frequency = np.arange(1, int(5.0 * repeat_period) + 1) / repeat_period
         gust = _realise(self._rotor_wind_spectrum(frequency, rotor), frequency, count, rng)
@@ -173,7 +177,7 @@ def steady_load(rna: RotorNacelleRNA, rotor: RotorOperation) -> Array:
 
 
 def _realise(spectrum: Array, frequency: Array, count: int, rng: np.random.Generator) -> Array:
-    """(count,) zero-mean periodic signal with random phases on harmonics 1, 2, ... of its period."""
+    """(count,) zero-mean periodic signal, random phases on harmonics 1, 2, ... of its period."""
     lines = np.zeros(count // 2 + 1, dtype=complex)
     amplitude = np.sqrt(2 * spectrum * frequency[0])
     phase = rng.uniform(0, 2 * np.pi, len(frequency))

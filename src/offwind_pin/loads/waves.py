@@ -9,6 +9,8 @@ import numpy as np
 from offwind_pin.turbines.definition import Array
 
 _LARGEST_EXPONENT = 700.0
+_STREAM = 1
+"""Keeps the random numbers of waves and wind apart when a case gives both one seed."""
 
 
 def wave_number(angular_frequency: Array, depth: float, gravity: float) -> Array:
@@ -76,7 +78,7 @@ class IrregularSea:
         harmonic = np.arange(np.ceil(0.4 * peak / step), np.floor(5 * peak / step) + 1)
         frequency = harmonic * step
         spectrum = pierson_moskowitz(frequency, significant_height, peak_period)
-        phase = np.random.default_rng(seed).uniform(0, 2 * np.pi, len(frequency))
+        phase = np.random.default_rng((seed, _STREAM)).uniform(0, 2 * np.pi, len(frequency))
         return IrregularSea(np.sqrt(2 * spectrum * step), frequency, phase, depth, gravity)
 
     @property

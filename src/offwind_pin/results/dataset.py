@@ -95,13 +95,20 @@ def make_dataset(
     )
     data.attrs = {
         "title": "offwind-pin time histories",
-        "offwind_pin_version": metadata.version("offwind-pin"),
-        "pinocchio_version": metadata.version("pin"),
+        **versions(),
         "frame": FRAME,
         "mudline_m": mudline,
         **attributes,
     }
     return data
+
+
+def versions() -> dict[str, str]:
+    """Versions of the programs that made a result."""
+    return {
+        "offwind_pin_version": metadata.version("offwind-pin"),
+        "pinocchio_version": metadata.version("pin"),
+    }
 
 
 def _about(name: str, units: str, alias: str | None = None) -> dict[str, str]:

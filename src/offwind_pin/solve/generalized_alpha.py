@@ -74,8 +74,8 @@ class GeneralizedAlpha:
 
     dt: float
     spectral_radius: float = 0.9
-    relative_tolerance: float = 1e-9
-    increment_tolerance: float = 1e-9
+    relative_tolerance: float = 1e-8
+    increment_tolerance: float = 1e-8
     max_iterations: int = 25
     slow: float = 0.2
 

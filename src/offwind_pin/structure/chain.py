@@ -7,6 +7,7 @@ half of element k + 1; body 0 is the lower half of the first element, at the bas
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
@@ -132,7 +133,7 @@ def build_chain(
         joint_name=(*root, *(f"{name}_{joint}" for name in names for joint in NODE_JOINTS)),
         joint_height=middle,
         joint_stiffness=_joint_stiffness(turbine, edges, stiffness),
-        body=tuple(lump(turbine, low, high) for low, high in zip(cuts, cuts[1:], strict=False)),
+        body=tuple(lump(turbine, low, high) for low, high in itertools.pairwise(cuts)),
         rna=lump_rna(turbine.rna),
     )
 
@@ -195,7 +196,7 @@ def _counts_by_region(
 def _joint_stiffness(turbine: Turbine, boundary: Array, rule: Stiffness) -> Array:
     """(N, 3) rotational stiffness about x, y, z in N m/rad."""
     result = np.empty((len(boundary) - 1, 3))
-    for i, (low, high) in enumerate(zip(boundary, boundary[1:], strict=False)):
+    for i, (low, high) in enumerate(itertools.pairwise(boundary)):
         if rule == "flexibility":
             bending, torsion = (1 / value for value in flexibility(turbine, low, high))
         else:

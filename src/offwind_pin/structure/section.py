@@ -1,7 +1,8 @@
-"""The support structure as a function of height: what lies between two heights, and its stiffness."""
+"""The support structure over height: what lies between two heights, and its stiffness."""
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator
 
 import numpy as np
@@ -35,7 +36,7 @@ def pieces(turbine: Turbine, low: float, high: float) -> Iterator[tuple[float, f
     for member in turbine.members:
         cuts = [low, *(station.z for station in member.stations), high]
         inside = sorted({z for z in cuts if max(low, member.bottom) <= z <= min(high, member.top)})
-        for bottom, top in zip(inside, inside[1:], strict=False):
+        for bottom, top in itertools.pairwise(inside):
             yield bottom, top, member
 
 

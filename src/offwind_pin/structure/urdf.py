@@ -38,7 +38,7 @@ def write_urdf(turbine: Turbine, chain: Chain) -> str:
                 ET.SubElement(robot, "link", name=child)
     else:
         _fixed_joint(robot, "base_fixed", parent, links[0], [0.0, 0.0, chain.base])
-    _body(robot, turbine, chain, 0)
+    _body(robot, chain, 0)
     parent, height = links[0], chain.base
     for k in range(chain.elements):
         for i, axis in enumerate(NODE_JOINTS):
@@ -48,7 +48,7 @@ def write_urdf(turbine: Turbine, chain: Chain) -> str:
             parent, height = child, chain.joint_height[k]
             if axis != "rz":
                 ET.SubElement(robot, "link", name=child)
-        _body(robot, turbine, chain, k + 1)
+        _body(robot, chain, k + 1)
     _fixed_joint(robot, "yaw_bearing", parent, "rna", [0.0, 0.0, chain.top - height])
     rna = ET.SubElement(robot, "link", name="rna")
     _inertial(rna, chain.rna.mass, chain.rna.center_of_mass, chain.rna.inertia)
@@ -143,7 +143,7 @@ def _fixed_joint(robot: ET.Element, name: str, parent: str, child: str, xyz: lis
     ET.SubElement(joint, "child", link=child)
 
 
-def _body(robot: ET.Element, turbine: Turbine, chain: Chain, k: int) -> None:
+def _body(robot: ET.Element, chain: Chain, k: int) -> None:
     name = body_links(chain)[k]
     link = ET.SubElement(robot, "link", name=name)
     body = chain.body[k]

@@ -6,6 +6,7 @@ A file carries units in its keys (``diameter_m``); in Python the same quantity i
 
 from __future__ import annotations
 
+import itertools
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -74,7 +75,7 @@ class Member(Definition):
     @model_validator(mode="after")
     def _stations_rise(self) -> Member:
         heights = [station.z for station in self.stations]
-        for lower, upper in zip(heights, heights[1:], strict=False):
+        for lower, upper in itertools.pairwise(heights):
             if upper <= lower:
                 raise ValueError(
                     f"stations must rise strictly in z_m, but {upper} follows {lower}; "
@@ -237,7 +238,7 @@ class LinearModulus(Definition):
 
 
 class TanhCurve(Definition):
-    """p = p_u tanh(k y / p_u), with initial modulus k in N/m2 and ultimate resistance p_u in N/m."""
+    """p = p_u tanh(k y / p_u), initial modulus k in N/m2, ultimate resistance p_u in N/m."""
 
     kind: Literal["tanh"]
     initial_modulus: DepthLine = Field(alias="initial_modulus_n_per_m2")
@@ -279,7 +280,7 @@ class Soil(Definition):
 
 
 class DampingCalibration(Definition):
-    """Structural damping, calibrated so that modes of the supported structure reach given ratios."""
+    """Structural damping: the ratios that modes of the supported structure shall reach."""
 
     foundation: Literal["clamped", "coupled_springs"]
     still_water: bool
@@ -307,8 +308,8 @@ class Turbine(Definition):
         for member in self.members:
             if member.material not in self.materials:
                 raise ValueError(
-                    f"member {member.name} is made of {member.material!r}, which materials does not "
-                    f"list (it has {', '.join(self.materials)})"
+                    f"member {member.name} is made of {member.material!r}, which materials does "
+                    f"not list (it has {', '.join(self.materials)})"
                 )
         names = [member.name for member in self.members]
         if len(set(names)) < len(names) or "pile" in names:
@@ -320,12 +321,12 @@ class Turbine(Definition):
             if upper.bottom != lower.top:
                 raise ValueError(
                     f"member {upper.name} starts at z_m = {upper.bottom}, but {lower.name} ends at "
-                    f"{lower.top}; list members from the toe upwards, each starting where the last ends"
+                    f"{lower.top}; list members from the toe upwards, without gaps"
                 )
         if self.site.mudline < self.toe:
             raise ValueError(
-                f"the mudline (z = {self.site.mudline} m, from water_depth_m) lies below the pile toe "
-                f"(z = {self.toe} m); lower the toe or reduce the water depth"
+                f"the mudline (z = {self.site.mudline} m, from water_depth_m) lies below the pile "
+                f"toe (z = {self.toe} m); lower the toe or reduce the water depth"
             )
         if self.site.mudline >= self.yaw_bearing:
             raise ValueError(

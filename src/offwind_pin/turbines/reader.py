@@ -1,4 +1,4 @@
-"""Reading of YAML definitions, with errors that name file, field, value, what is allowed, remedy."""
+"""Reading of YAML definitions; errors name file, field, value, what is allowed, remedy."""
 
 from __future__ import annotations
 

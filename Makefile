@@ -1,0 +1,58 @@
+# One entry point for people and CI. Needs Python 3.11 or later with venv, and nothing else.
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+INSTALLED := $(VENV)/installed
+export OMP_NUM_THREADS := 1
+export OPENBLAS_NUM_THREADS := 1
+
+.PHONY: help install demo test check lint format types bench urdf lock clean
+
+help: ## List the targets
+	@grep -E '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 12
+
+$(INSTALLED): requirements.lock pyproject.toml
+	$(PYTHON) -c 'import sys; sys.exit("Python 3.11 or later is needed; set PYTHON=...") if sys.version_info < (3, 11) else None'
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r requirements.lock
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-build-isolation --no-deps -e .
+	touch $@
+
+install: $(INSTALLED) ## Make the environment from the lock file
+
+demo: $(INSTALLED) ## Solve OC6 LC 5.1, write its report and the second mode's animation
+	$(BIN)/offwind run oc6-lc5.1 --out out/oc6-lc5.1
+	$(BIN)/offwind animate oc6_phase2 --foundation distributed_springs --mode FA2 --html out/oc6-lc5.1/fa2.html
+	@echo "Open out/oc6-lc5.1/report.html and out/oc6-lc5.1/fa2.html in a browser."
+
+test: $(INSTALLED) ## Run the whole test suite
+	$(BIN)/python -m pytest
+
+check: lint types ## Lint, format and type checks
+
+lint: $(INSTALLED)
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+
+types: $(INSTALLED)
+	$(BIN)/mypy
+
+format: $(INSTALLED) ## Reformat the code
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+
+bench: $(INSTALLED) ## Measure speed; writes JSON to out/benchmarks
+	$(BIN)/python benchmarks/step_cost.py
+
+urdf: $(INSTALLED) ## Write the shipped URDF files anew
+	$(BIN)/python sim/write_urdf.py
+
+lock: ## Resolve the dependencies anew into requirements.lock
+	$(PYTHON) -m venv $(VENV)-lock
+	$(VENV)-lock/bin/python -m pip install --quiet 'uv>=0.5'
+	$(VENV)-lock/bin/uv pip compile pyproject.toml --group dev --universal --python-version 3.11 \
+		--generate-hashes --no-emit-index-url --no-header --no-annotate --output-file requirements.lock
+	rm -rf $(VENV)-lock
+
+clean: ## Remove the environment and all results
+	rm -rf $(VENV) out .mypy_cache .pytest_cache .ruff_cache

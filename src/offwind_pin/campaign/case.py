@@ -1,0 +1,135 @@
+"""A load case as data: turbine, foundation, sea, load, analysis, and what others published."""
+
+from __future__ import annotations
+
+from importlib import resources
+from pathlib import Path
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+
+from offwind_pin.turbines.definition import Definition, NonNegative, Number, Positive
+from offwind_pin.turbines.reader import find_definition, read_model
+
+FoundationName = Literal["clamped", "coupled_springs", "distributed_springs"]
+
+
+class DrySea(Definition):
+    """No water."""
+
+    kind: Literal["dry"]
+
+
+class StillSea(Definition):
+    """Water at rest."""
+
+    kind: Literal["still_water"]
+
+
+class IrregularSeaState(Definition):
+    """Pierson-Moskowitz waves; the case's seed draws their phases."""
+
+    kind: Literal["irregular_waves"]
+    significant_height: Annotated[Positive, Field(le=30)] = Field(alias="significant_height_m")
+    peak_period: Annotated[Positive, Field(ge=1, le=30)] = Field(alias="peak_period_s")
+
+
+class SyntheticTowerTopLoad(Definition):
+    """The package's own generator; see :class:`SyntheticWind`."""
+
+    kind: Literal["synthetic"]
+    wind_speed: Annotated[Positive, Field(ge=1, le=25)] = Field(alias="wind_speed_m_per_s")
+    blade_passing_frequency: Annotated[Positive, Field(le=5)] = Field(
+        alias="blade_passing_frequency_hz"
+    )
+    turbulence_intensity: Annotated[NonNegative, Field(le=1)] = 0.10
+
+
+class TowerTopLoadFile(Definition):
+    """Seven columns t, Fx, Fy, Fz, Mx, My, Mz; a relative path starts at the case file."""
+
+    kind: Literal["file"]
+    file: Path
+
+
+class StaticAnalysis(Definition):
+    """Equilibrium under gravity, beside that on another foundation."""
+
+    kind: Literal["static"]
+    compare_with: FoundationName
+
+
+class ModalAnalysis(Definition):
+    """Natural modes about the static state under gravity."""
+
+    kind: Literal["modes"]
+    count: Annotated[int, Field(ge=1, le=50)] = 8
+
+
+class TransientAnalysis(Definition):
+    """Time histories, and the spectrum of the fore-aft moment at the mudline after the ramp."""
+
+    kind: Literal["transient"]
+    duration: Annotated[Positive, Field(le=1e5)] = Field(alias="duration_s")
+    ramp: NonNegative = Field(alias="ramp_s")
+    dt: Annotated[Positive, Field(le=1)] = Field(alias="dt_s")
+    output_dt: Positive = Field(alias="output_dt_s")
+    psd_segment: Positive = Field(alias="psd_segment_s")
+
+    @model_validator(mode="after")
+    def _window_holds_a_segment(self) -> TransientAnalysis:
+        if self.ramp >= self.duration:
+            raise ValueError(f"ramp_s = {self.ramp} leaves nothing of duration_s = {self.duration}")
+        if self.psd_segment > self.duration - self.ramp:
+            raise ValueError(
+                f"psd_segment_s = {self.psd_segment} is longer than the analysed "
+                f"{self.duration - self.ramp} s; shorten it or lengthen duration_s"
+            )
+        return self
+
+
+class PublishedValue(Definition):
+    """A number that others published, and the key of ours in the summary."""
+
+    quantity: str
+    key: str
+    value: Number
+    unit: str
+
+
+class Case(Definition):
+    """One load case."""
+
+    name: Annotated[str, Field(pattern=r"^[A-Za-z0-9._-]+$")]
+    title: str
+    description: str = ""
+    turbine: str
+    foundation: FoundationName
+    sea: Annotated[DrySea | StillSea | IrregularSeaState, Field(discriminator="kind")]
+    tower_top_load: (
+        Annotated[SyntheticTowerTopLoad | TowerTopLoadFile, Field(discriminator="kind")] | None
+    ) = None
+    analysis: Annotated[
+        StaticAnalysis | ModalAnalysis | TransientAnalysis, Field(discriminator="kind")
+    ]
+    seed: Annotated[int, Field(ge=0)] = 1
+    elements: Annotated[int, Field(ge=2, le=2000)] | dict[str, int] | None = None
+    published: tuple[PublishedValue, ...] = ()
+
+
+def shipped_cases() -> list[str]:
+    """Names of the cases that come with the package."""
+    folder = resources.files("offwind_pin.campaign") / "oc6_phase2"
+    names = [entry.name for entry in folder.iterdir() if entry.name.endswith(".yaml")]
+    return sorted(f"oc6-{name.removesuffix('.yaml')}" for name in names)
+
+
+def load_case(name_or_path: str | Path) -> tuple[Case, Path]:
+    """A case by shipped name or from a YAML file, and the folder its relative paths start from.
+
+    Raises
+    ------
+    InputError : the name is unknown, or the file cannot be read or understood
+    """
+    path = find_definition(name_or_path, shipped_cases(), "case")
+    return read_model(path, Case), path.parent

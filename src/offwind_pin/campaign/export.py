@@ -1,0 +1,22 @@
+"""A system as a folder that other programs read: URDF, meshes, sidecar."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from offwind_pin.dynamics.system import System
+from offwind_pin.results.files import whole_file, write_json, write_text
+from offwind_pin.structure.urdf import write_meshes, write_sidecar, write_urdf
+
+
+def export_urdf(system: System, out: Path) -> list[Path]:
+    """Write ``NAME.urdf``, ``NAME.json`` and ``meshes/`` into a folder; returns the first two."""
+    turbine, chain = system.turbine, system.chain
+    for name, content in write_meshes(turbine, chain).items():
+        with whole_file(out / "meshes" / name) as temporary:
+            temporary.write_bytes(content)
+    urdf, sidecar = out / f"{turbine.name}.urdf", out / f"{turbine.name}.json"
+    write_text(urdf, write_urdf(turbine, chain))
+    damping = system.joint_damping[chain.roots :].reshape(-1, 3)
+    write_json(sidecar, write_sidecar(turbine, chain, damping, system.foundation.describe()))
+    return [urdf, sidecar]

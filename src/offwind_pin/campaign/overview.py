@@ -1,0 +1,138 @@
+"""What was understood of a turbine, at a glance."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from offwind_pin.analysis.build import build
+from offwind_pin.analysis.modal import modes
+from offwind_pin.dynamics.sea import StillWater
+from offwind_pin.structure.section import lump
+from offwind_pin.turbines.definition import Member, Turbine
+from offwind_pin.turbines.rna import lump_rna
+
+_SHOWN_MODES = ("FA1", "SS1", "FA2", "SS2", "T1")
+
+
+@dataclass(frozen=True)
+class MemberFacts:
+    """Extent (m), sections (m) and mass (kg) of one member."""
+
+    name: str
+    bottom_m: float
+    top_m: float
+    bottom_diameter_m: float
+    top_diameter_m: float
+    thinnest_wall_m: float
+    thickest_wall_m: float
+    mass_kg: float
+
+
+@dataclass(frozen=True)
+class Overview:
+    """Masses, lengths and frequencies of a turbine; frequencies in Hz by foundation and label."""
+
+    name: str
+    description: str
+    mudline_m: float
+    toe_m: float
+    yaw_bearing_m: float
+    water_depth_m: float
+    embedded_length_m: float
+    members: list[MemberFacts]
+    rna_mass_kg: float
+    rna_center_of_mass_m: list[float]
+    mass_above_mudline_kg: float
+    frequencies_hz: dict[str, dict[str, float]]
+    surrogate: str | None
+
+    def as_dict(self) -> dict[str, Any]:
+        return asdict(self)
+
+    def tables(self) -> list[tuple[str, list[tuple[str, str]]]]:
+        """Titles and rows for a person."""
+        lengths = [
+            ("yaw bearing", f"{self.yaw_bearing_m:+.2f} m"),
+            ("mudline", f"{self.mudline_m:+.2f} m (water depth {self.water_depth_m:g} m)"),
+            ("pile toe", f"{self.toe_m:+.2f} m ({self.embedded_length_m:g} m embedded)"),
+        ]
+        masses = [
+            (
+                member.name,
+                f"{member.mass_kg:,.0f} kg, z {member.bottom_m:+.2f} to {member.top_m:+.2f} m, "
+                f"D {member.bottom_diameter_m:g} to {member.top_diameter_m:g} m, "
+                f"t {1e3 * member.thinnest_wall_m:g} to {1e3 * member.thickest_wall_m:g} mm",
+            )
+            for member in self.members
+        ]
+        x, y, z = self.rna_center_of_mass_m
+        masses.append(
+            ("rotor-nacelle", f"{self.rna_mass_kg:,.0f} kg, centre {x:.3f}, {y:.3f}, {z:.3f} m")
+        )
+        masses.append(("above the mudline", f"{self.mass_above_mudline_kg:,.0f} kg"))
+        frequencies = [
+            (case, ", ".join(f"{label} {value:.4f}" for label, value in found.items()))
+            for case, found in self.frequencies_hz.items()
+        ]
+        return [
+            (f"{self.name}: {self.description}", lengths),
+            ("Masses", masses),
+            ("Natural frequencies in Hz, about the static state under gravity", frequencies),
+        ]
+
+
+def overview(turbine: Turbine) -> Overview:
+    """Collect what a person wants to check first; solves the modes on each foundation."""
+    rna = lump_rna(turbine.rna)
+    mudline = turbine.site.mudline
+    springs = turbine.soil.distributed_springs
+    return Overview(
+        name=turbine.name,
+        description=turbine.description,
+        mudline_m=mudline,
+        toe_m=turbine.toe,
+        yaw_bearing_m=turbine.yaw_bearing,
+        water_depth_m=turbine.site.water_depth,
+        embedded_length_m=mudline - turbine.toe,
+        members=[_member_facts(turbine, member) for member in turbine.members],
+        rna_mass_kg=rna.mass,
+        rna_center_of_mass_m=rna.center_of_mass.tolist(),
+        mass_above_mudline_kg=lump(turbine, mudline, turbine.yaw_bearing).mass + rna.mass,
+        frequencies_hz=_frequencies(turbine),
+        surrogate=springs.surrogate if springs else None,
+    )
+
+
+def _member_facts(turbine: Turbine, member: Member) -> MemberFacts:
+    walls = [station.thickness for station in member.stations]
+    return MemberFacts(
+        name=member.name,
+        bottom_m=member.bottom,
+        top_m=member.top,
+        bottom_diameter_m=member.stations[0].diameter,
+        top_diameter_m=member.stations[-1].diameter,
+        thinnest_wall_m=min(walls),
+        thickest_wall_m=max(walls),
+        mass_kg=lump(turbine, member.bottom, member.top).mass,
+    )
+
+
+def _frequencies(turbine: Turbine) -> dict[str, dict[str, float]]:
+    """Frequencies on every foundation that the turbine has the numbers for."""
+    described = {
+        "clamped": True,
+        "coupled_springs": turbine.soil.coupled_springs is not None,
+        "distributed_springs": turbine.soil.distributed_springs is not None,
+    }
+    found = {}
+    for foundation in (name for name, known in described.items() if known):
+        sea = None if foundation == "clamped" else StillWater()
+        result = modes(build(turbine, foundation, sea), 8)
+        water = "in still water" if sea else "dry"
+        found[f"{foundation}, {water}"] = {
+            label: float(result.frequency_hz[result.index(label)])
+            for label in _SHOWN_MODES
+            if label in result.label
+        }
+    return found

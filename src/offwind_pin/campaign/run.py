@@ -1,0 +1,340 @@
+"""Running a load case: solve, summarise, write results and report."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from offwind_pin.analysis.build import build
+from offwind_pin.analysis.modal import ModalResult, modes
+from offwind_pin.analysis.static import StaticResult, static
+from offwind_pin.analysis.transient import simulate
+from offwind_pin.campaign.case import (
+    Case,
+    DrySea,
+    IrregularSeaState,
+    ModalAnalysis,
+    StaticAnalysis,
+    SyntheticTowerTopLoad,
+    TransientAnalysis,
+)
+from offwind_pin.campaign.summaries import (
+    Spectrum,
+    moment_spectrum,
+    summarise_modes,
+    summarise_spectrum,
+    summarise_static,
+)
+from offwind_pin.display.report import CaseReport, Published, WindReport, write_report
+from offwind_pin.dynamics.sea import IrregularWaves, Sea, StillWater
+from offwind_pin.dynamics.system import System
+from offwind_pin.errors import InputError, InterruptedSimulation, SolverError
+from offwind_pin.loads.synthetic_wind import SyntheticWind, operate_rotor
+from offwind_pin.loads.tower_top import LoadHistory, read_load_history
+from offwind_pin.results.dataset import versions
+from offwind_pin.results.files import write_json, write_netcdf
+from offwind_pin.results.states import modal_dataset, static_dataset
+from offwind_pin.turbines.definition import RotorNacelleRNA, Turbine
+from offwind_pin.turbines.reader import load_turbine
+
+Progress = Callable[[float, float], None]
+
+
+@dataclass(frozen=True)
+class CaseResult:
+    """What a case gave: the summary, the dataset for NetCDF, and what the report shows."""
+
+    summary: dict[str, Any]
+    data: xr.Dataset
+    system: System
+    modes: ModalResult | None = None
+    statics: dict[str, StaticResult] = field(default_factory=dict)
+    spectrum: Spectrum | None = None
+
+
+def run_case(
+    case: Case, folder: Path, out: Path, *, progress: Progress | None = None
+) -> dict[str, Any]:
+    """Solve a case and write ``summary.json``, ``results.nc`` and ``report.html``.
+
+    Everything the user gave is checked before anything is written.
+
+    Parameters
+    ----------
+    folder : where relative paths inside the case start
+    out : directory for the results, made if it is not there
+    progress : called with simulated time and duration in s
+
+    Returns
+    -------
+    The summary.
+
+    Raises
+    ------
+    InputError : something in the case cannot be used
+    SolverError, InterruptedSimulation : the solve stopped; the results so far are in ``out``
+    """
+    _check_directory(out)
+    turbine = _turbine(case, folder)
+    clock = time.perf_counter()
+    try:
+        result = _solve(case, turbine, folder, progress)
+    except (SolverError, InterruptedSimulation) as stopped:
+        _write_partial(case, out, stopped, time.perf_counter() - clock)
+        raise
+    wall = time.perf_counter() - clock
+    summary = _head(case, "complete", wall, result.summary.pop("simulated_s", 0.0))
+    summary |= result.summary
+    _write(case, turbine, out, replace(result, summary=summary))
+    return summary
+
+
+def _solve(case: Case, turbine: Turbine, folder: Path, progress: Progress | None) -> CaseResult:
+    if isinstance(case.analysis, StaticAnalysis):
+        return _solve_static(case, turbine, case.analysis)
+    if isinstance(case.analysis, ModalAnalysis):
+        return _solve_modes(case, turbine, case.analysis)
+    return _solve_transient(case, turbine, case.analysis, folder, progress)
+
+
+def _solve_static(case: Case, turbine: Turbine, analysis: StaticAnalysis) -> CaseResult:
+    names = (case.foundation, analysis.compare_with)
+    systems = {
+        name: build(turbine, name, _sea(case, 0.0), elements=case.elements) for name in names
+    }
+    statics = {name: static(system) for name, system in systems.items()}
+    main, other = statics[case.foundation], statics[analysis.compare_with]
+    reference = float(other.tower_top_displacement[0])
+    summary = summarise_static(main) | {
+        "foundation": case.foundation,
+        f"{analysis.compare_with}_tower_top_x_m": reference,
+        f"increase_over_{analysis.compare_with}_percent": 100
+        * (float(main.tower_top_displacement[0]) / reference - 1),
+    }
+    return CaseResult(
+        summary,
+        static_to_dataset(systems[case.foundation], main),
+        systems[case.foundation],
+        None,
+        statics,
+    )
+
+
+def _solve_modes(case: Case, turbine: Turbine, analysis: ModalAnalysis) -> CaseResult:
+    system = build(turbine, case.foundation, _sea(case, 0.0), elements=case.elements)
+    state = static(system)
+    result = modes(system, analysis.count, state)
+    table = summarise_modes(result)
+    summary: dict[str, Any] = {"foundation": case.foundation, "modes": table}
+    summary |= {f"{row['label']}_hz": row["frequency_hz"] for row in table}
+    summary |= {
+        f"{row['label']}_peak_height_ratio": row["shape_peak_height_ratio"] for row in table
+    }
+    summary |= summarise_static(state)
+    data = modal_dataset(
+        result.height,
+        result.label,
+        frequency_hz=result.frequency_hz,
+        damping_ratio=result.damping_ratio,
+        shape=result.shape,
+        mass_normalised=result.mass_normalised,
+        attributes=_attributes(system),
+    )
+    return CaseResult(summary, data, system, result, {case.foundation: state})
+
+
+def _solve_transient(
+    case: Case,
+    turbine: Turbine,
+    analysis: TransientAnalysis,
+    folder: Path,
+    progress: Progress | None,
+) -> CaseResult:
+    system = build(turbine, case.foundation, _sea(case, analysis.duration), elements=case.elements)
+    history = _tower_top_history(case, turbine, analysis, folder)
+    loads = [] if history is None else [history]
+    data = simulate(
+        system,
+        analysis.duration,
+        analysis.dt,
+        loads,
+        ramp=analysis.ramp,
+        output_dt=analysis.output_dt,
+        provenance={"case": case.name, "seed": case.seed},
+        progress=None if progress is None else lambda now: progress(now, analysis.duration),
+    )
+    mean = None if history is None else history.mean(analysis.ramp, analysis.duration)
+    state = static(system, mean)
+    result = modes(system, 8, state)
+    spectrum = moment_spectrum(data, analysis.psd_segment, _marked(case, result))
+    summary = summarise_spectrum(data, spectrum)
+    summary |= {
+        "simulated_s": analysis.duration,
+        "foundation": case.foundation,
+        "seed": case.seed,
+        "mudline_moment_y_static_under_mean_loads_Nm": float(state.mudline_load[4]),
+        "natural_frequencies_hz": dict(
+            zip(result.label, result.frequency_hz.tolist(), strict=True)
+        ),
+        "modes": summarise_modes(result),
+        "steps": round(analysis.duration / analysis.dt),
+        "mean_iterations": float(data["solver_iterations"][1:].mean()),
+        "largest_residual": float(data["solver_residual"].max()),
+    }
+    return CaseResult(summary, data, system, result, {case.foundation: state}, spectrum)
+
+
+def _sea(case: Case, duration: float) -> Sea | None:
+    if isinstance(case.sea, DrySea):
+        return None
+    if isinstance(case.sea, IrregularSeaState):
+        return IrregularWaves(
+            case.sea.significant_height,
+            case.sea.peak_period,
+            seed=case.seed,
+            repeat_period=max(duration, 600.0),
+        )
+    return StillWater()
+
+
+def _tower_top_history(
+    case: Case, turbine: Turbine, analysis: TransientAnalysis, folder: Path
+) -> LoadHistory | None:
+    load = case.tower_top_load
+    if load is None:
+        return None
+    if not isinstance(load, SyntheticTowerTopLoad):
+        return read_load_history(folder / load.file)
+    return _generator(case, load).generate(
+        _rotor(turbine), duration=analysis.duration, repeat_period=analysis.duration - analysis.ramp
+    )
+
+
+def _generator(case: Case, load: SyntheticTowerTopLoad) -> SyntheticWind:
+    return SyntheticWind(
+        load.wind_speed, load.blade_passing_frequency, load.turbulence_intensity, seed=case.seed
+    )
+
+
+def _rotor(turbine: Turbine) -> RotorNacelleRNA:
+    if not isinstance(turbine.rna, RotorNacelleRNA):
+        raise InputError(
+            f"turbine {turbine.name}, field rna.kind",
+            turbine.rna.kind,
+            "rotor_nacelle, whose rotor the synthetic wind needs",
+            "Give rotor and nacelle inputs, or a tower-top load file.",
+        )
+    return turbine.rna
+
+
+def _marked(case: Case, result: ModalResult) -> dict[str, float]:
+    """Frequencies in Hz that a reader looks for in the spectrum, by name."""
+    marked = {}
+    if isinstance(case.sea, IrregularSeaState):
+        marked["wave"] = 1 / case.sea.peak_period
+    for label in ("FA1", "FA2"):
+        if label in result.label:
+            marked[label] = float(result.frequency_hz[result.index(label)])
+    if isinstance(case.tower_top_load, SyntheticTowerTopLoad):
+        for order in (1, 2, 3):
+            marked[f"{3 * order}P"] = order * case.tower_top_load.blade_passing_frequency
+    return marked
+
+
+def static_to_dataset(system: System, state: StaticResult) -> xr.Dataset:
+    """A static state with its provenance."""
+    return static_dataset(
+        state.height,
+        displacement=state.displacement,
+        rotation=state.rotation,
+        section_load=state.section_load,
+        attributes=_attributes(system)
+        | {"iterations": state.iterations, "residual": state.residual},
+    )
+
+
+def _attributes(system: System) -> dict[str, Any]:
+    return {
+        "turbine": system.turbine.name,
+        "foundation": system.foundation.name,
+        "surrogates": system.foundation.surrogate or "none",
+        "elements": system.chain.elements,
+    }
+
+
+def _head(case: Case, status: str, wall: float, simulated: float) -> dict[str, Any]:
+    return {
+        "case": case.name,
+        "status": status,
+        "wall_s": wall,
+        "simulated_s": simulated,
+        "realtime_factor": simulated / wall,
+        **versions(),
+    }
+
+
+def _write(case: Case, turbine: Turbine, out: Path, result: CaseResult) -> None:
+    histories = result.data if isinstance(case.analysis, TransientAnalysis) else None
+    report = CaseReport(
+        name=case.name,
+        title=case.title,
+        description=case.description,
+        system=result.system,
+        summary=result.summary,
+        modes=result.modes,
+        statics=result.statics,
+        histories=histories,
+        published=tuple(
+            Published(
+                row.quantity, row.value, row.unit, row.source or "", result.summary.get(row.key)
+            )
+            for row in case.published
+        ),
+        wind=_wind_report(case, turbine),
+        psd=result.spectrum,
+    )
+    write_netcdf(out / "results.nc", result.data.assign_attrs(case=case.name))
+    write_report(out / "report.html", report)
+    write_json(out / "summary.json", result.summary)
+
+
+def _wind_report(case: Case, turbine: Turbine) -> WindReport | None:
+    load = case.tower_top_load
+    if not isinstance(load, SyntheticTowerTopLoad):
+        return None
+    rotor = operate_rotor(_rotor(turbine), load.wind_speed, load.blade_passing_frequency)
+    return WindReport(_generator(case, load), rotor)
+
+
+def _write_partial(
+    case: Case, out: Path, stopped: SolverError | InterruptedSimulation, wall: float
+) -> None:
+    """What there is of a stopped run: the histories so far, and a summary that says so."""
+    status = "failed" if isinstance(stopped, SolverError) else "interrupted"
+    reached = 0.0
+    if stopped.results is not None and stopped.results.sizes["time"]:
+        write_netcdf(out / "results.nc", stopped.results)
+        reached = float(stopped.results["time"][-1])
+    write_json(out / "summary.json", _head(case, status, wall, reached) | {"message": str(stopped)})
+
+
+def _turbine(case: Case, folder: Path) -> Turbine:
+    """The case's turbine; a relative path starts at the case file."""
+    local = folder / case.turbine
+    return load_turbine(local if local.is_file() else case.turbine)
+
+
+def _check_directory(out: Path) -> None:
+    if out.exists() and not out.is_dir():
+        raise InputError("--out", str(out), "a directory", "Name another place for the results.")
+
+
+def finite(value: float) -> float | None:
+    """A number that JSON can hold, or None."""
+    return float(value) if np.isfinite(value) else None

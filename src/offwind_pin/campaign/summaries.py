@@ -1,0 +1,98 @@
+"""The numbers of a case that go into ``summary.json`` and to standard output."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import xarray as xr
+
+from offwind_pin.analysis.modal import FAMILIES, ModalResult
+from offwind_pin.analysis.static import StaticResult
+from offwind_pin.display.report import Spectrum
+from offwind_pin.signal.spectra import band_sum, peaks, power_spectral_density
+
+BANDS_HZ = {"psd_sum_0p2_0p3": (0.2, 0.3), "psd_sum_1p0_1p5": (1.0, 1.5)}
+"""Bands of the paper's PSD sums, about the first and the second bending mode."""
+
+PEAK_PROMINENCE_DB = 1.0
+NEARNESS = {"wave": 0.05}
+"""A peak belongs to a marked frequency within 5 % for the wave and 2 % for the others."""
+
+
+def summarise_modes(result: ModalResult) -> list[dict[str, Any]]:
+    """One row for each mode, as in ``offwind modes --json``."""
+    return [
+        {
+            "label": label,
+            "frequency_hz": float(result.frequency_hz[i]),
+            "damping_ratio": float(result.damping_ratio[i]),
+            "shape_peak_height_ratio": float(result.shape_peak_height_ratio[i]),
+        }
+        for i, label in enumerate(result.label)
+    ]
+
+
+def summarise_static(state: StaticResult) -> dict[str, Any]:
+    """As in ``offwind static --json``."""
+    return {
+        "tower_top_x_m": float(state.tower_top_displacement[0]),
+        "tower_top_z_m": float(state.tower_top_displacement[2]),
+        "tower_top_rotation_y_rad": float(state.tower_top_rotation[1]),
+        "mudline_displacement_x_m": float(state.mudline_displacement[0]),
+        "mudline_moment_y_Nm": float(state.mudline_load[4]),
+        "iterations": state.iterations,
+        "residual": state.residual,
+    }
+
+
+def moment_spectrum(data: xr.Dataset, segment: float, marked: dict[str, float]) -> Spectrum:
+    """PSD of the fore-aft moment at the mudline after the ramp.
+
+    segment : Welch window in s; marked : frequencies of interest in Hz by name
+    """
+    time = data["time"].to_numpy()
+    moment = data["mudline_moment"].sel(direction="y").to_numpy()
+    analysed = time > data.attrs["ramp_s"]
+    frequency, density = power_spectral_density(moment[analysed], time[1] - time[0], segment)
+    found = peaks(frequency, density, 0.05, 1.6, PEAK_PROMINENCE_DB)
+    near = {name: _nearest_peak(found, at, NEARNESS.get(name, 0.02)) for name, at in marked.items()}
+    return Spectrum(
+        frequency,
+        density,
+        peaks={name: at for name, at in near.items() if at is not None},
+        marked=marked,
+        band_sums={name: band_sum(frequency, density, *band) for name, band in BANDS_HZ.items()},
+        bands=BANDS_HZ,
+        segment=segment,
+    )
+
+
+def summarise_spectrum(data: xr.Dataset, spectrum: Spectrum) -> dict[str, Any]:
+    """Mean and standard deviation of the moment, peaks and band sums."""
+    moment = data["mudline_moment"].sel(direction="y")
+    analysed = moment.where(data["time"] > data.attrs["ramp_s"], drop=True)
+    first, second = spectrum.band_sums.values()
+    return {
+        "mudline_moment_y_mean_Nm": float(analysed.mean()),
+        "mudline_moment_y_std_Nm": float(analysed.std()),
+        "psd_peaks_hz": sorted(set(spectrum.peaks.values())),
+        "psd_peaks_near_hz": spectrum.peaks,
+        **{f"psd_peak_{name}_hz": at for name, at in spectrum.peaks.items()},
+        **spectrum.band_sums,
+        "psd_sum_ratio": first / second,
+        "psd_segment_s": spectrum.segment,
+    }
+
+
+def _nearest_peak(found: list[float], at: float, nearness: float) -> float | None:
+    """The peak nearest to a frequency, if one lies within a share of it."""
+    near = [peak for peak in found if abs(peak / at - 1) <= nearness]
+    return min(near, key=lambda peak: abs(peak - at)) if near else None
+
+
+def plain_name(label: str) -> str:
+    """A label in words: ``FA2`` is "second fore-aft"."""
+    family = label.rstrip("0123456789")
+    number = int(label[len(family) :])
+    ordinal = {1: "first", 2: "second", 3: "third"}.get(number, f"{number}th")
+    return f"{ordinal} {FAMILIES[family]}"

@@ -1,0 +1,254 @@
+"""The command line: thin, with messages a person can act on and exit codes a script can read."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
+import typer
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.table import Table
+
+from offwind_pin.analysis.build import build
+from offwind_pin.analysis.modal import modes
+from offwind_pin.analysis.static import static
+from offwind_pin.campaign.case import load_case
+from offwind_pin.campaign.export import export_urdf
+from offwind_pin.campaign.overview import Overview, overview
+from offwind_pin.campaign.run import run_case
+from offwind_pin.campaign.summaries import plain_name, summarise_modes, summarise_static
+from offwind_pin.display.animation import animate
+from offwind_pin.dynamics.sea import StillWater
+from offwind_pin.errors import InputError, InterruptedSimulation, SolverError
+from offwind_pin.results.files import write_text
+from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.reader import load_turbine
+
+EXIT_INPUT, EXIT_SOLVER, EXIT_INTERRUPTED = 2, 3, 130
+
+app = typer.Typer(
+    help="Structural dynamics of monopile offshore wind turbines.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+)
+
+TurbineArgument = Annotated[str, typer.Argument(help="Shipped name (oc6_phase2) or a YAML file.")]
+FoundationOption = Annotated[
+    str, typer.Option(help="clamped, coupled_springs or distributed_springs.")
+]
+ElementsOption = Annotated[int | None, typer.Option(help="Multibody beam elements in all.")]
+JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")]
+
+
+@app.command()
+def show(turbine: TurbineArgument, as_json: JsonOption = False) -> None:  # noqa: FBT002
+    """Print what was understood of a turbine: masses, lengths, frequencies."""
+    facts = overview(load_turbine(turbine))
+    if as_json:
+        _print_json(facts.as_dict())
+    else:
+        _print_overview(facts)
+
+
+@app.command("modes")
+def modes_command(
+    turbine: TurbineArgument,
+    foundation: FoundationOption = "distributed_springs",
+    dry: Annotated[bool, typer.Option("--dry", help="Without water.")] = False,  # noqa: FBT002
+    elements: ElementsOption = None,
+    count: Annotated[int, typer.Option(help="Number of modes.")] = 8,
+    as_json: JsonOption = False,  # noqa: FBT002
+) -> None:
+    """Natural frequencies about the static state, in still water."""
+    sea = None if dry else StillWater()
+    system = build(load_turbine(turbine), foundation, sea, elements=elements)
+    rows = summarise_modes(modes(system, count))
+    if as_json:
+        _print_json({"modes": rows})
+        return
+    water = "dry" if dry else "in still water"
+    table = Table("mode", "", "frequency", "damping", "peak at", title=f"{foundation}, {water}")
+    for row in rows:
+        table.add_row(
+            row["label"],
+            plain_name(row["label"]),
+            f"{row['frequency_hz']:.4f} Hz",
+            f"{100 * row['damping_ratio']:.2f} %",
+            f"{row['shape_peak_height_ratio']:.2f} of height",
+        )
+    Console().print(table)
+    _print_surrogate(system.foundation.surrogate)
+
+
+@app.command("static")
+def static_command(
+    turbine: TurbineArgument,
+    foundation: FoundationOption = "distributed_springs",
+    tower_top_load: Annotated[
+        str | None,
+        typer.Option(metavar="FX,FY,FZ,MX,MY,MZ", help="Load at the yaw bearing in N and N m."),
+    ] = None,
+    elements: ElementsOption = None,
+    as_json: JsonOption = False,  # noqa: FBT002
+) -> None:
+    """Static equilibrium under gravity and, if given, a load at the yaw bearing."""
+    load = None if tower_top_load is None else _six_numbers(tower_top_load)
+    system = build(load_turbine(turbine), foundation, elements=elements)
+    summary = summarise_static(static(system, load))
+    if as_json:
+        _print_json(summary)
+        return
+    table = Table("quantity", "value", title=f"{foundation}, static")
+    for key, value in summary.items():
+        table.add_row(key, f"{value:.6g}")
+    Console().print(table)
+    _print_surrogate(system.foundation.surrogate)
+
+
+@app.command()
+def run(
+    case: Annotated[str, typer.Argument(help="Shipped name (oc6-lc5.1) or a YAML file.")],
+    out: Annotated[Path, typer.Option(help="Directory for the results.")],
+    as_json: JsonOption = False,  # noqa: FBT002
+) -> None:
+    """Solve a load case; write summary.json, results.nc and report.html."""
+    definition, folder = load_case(case)
+    with _simulation_progress() as progress:
+        summary = run_case(definition, folder, out, progress=progress)
+    if as_json:
+        _print_json(summary)
+        return
+    table = Table("quantity", "value", title=definition.title)
+    for key, value in summary.items():
+        if isinstance(value, int | float | str):
+            table.add_row(key, f"{value:.6g}" if isinstance(value, float) else str(value))
+    console = Console()
+    console.print(table)
+    console.print(f"Report: {out / 'report.html'}", soft_wrap=True)
+
+
+@app.command("animate")
+def animate_command(
+    turbine: TurbineArgument,
+    html: Annotated[Path, typer.Option(help="File to write.")],
+    foundation: FoundationOption = "distributed_springs",
+    mode: Annotated[str, typer.Option(help="Label of the mode: FA1, SS2, T1, ...")] = "FA2",
+    dry: Annotated[bool, typer.Option("--dry", help="Without water.")] = False,  # noqa: FBT002
+) -> None:
+    """Write a self-contained page with a mode moving."""
+    _check_target(html)
+    system = build(load_turbine(turbine), foundation, None if dry else StillWater())
+    write_text(html, animate(system, modes(system, 12), mode))
+    Console().print(f"Wrote {html}", soft_wrap=True)
+
+
+@app.command()
+def urdf(
+    turbine: TurbineArgument,
+    out: Annotated[Path, typer.Option(help="Directory for the URDF, its meshes and sidecar.")],
+    foundation: FoundationOption = "distributed_springs",
+    elements: ElementsOption = None,
+) -> None:
+    """Write the URDF that Pinocchio runs, its meshes, and the sidecar with springs and dampers."""
+    _check_directory(out)
+    system = build(load_turbine(turbine), foundation, elements=elements)
+    for path in export_urdf(system, out):
+        Console().print(f"Wrote {path}", soft_wrap=True)
+
+
+def main() -> None:
+    """Entry point of the ``offwind`` command."""
+    try:
+        app()
+    except InputError as error:
+        _complain(f"offwind: {error}")
+        sys.exit(EXIT_INPUT)
+    except SolverError as error:
+        _complain(f"offwind: {error}")
+        sys.exit(EXIT_SOLVER)
+    except InterruptedSimulation as stopped:
+        _complain(f"offwind: {stopped}; the results so far are kept")
+        sys.exit(EXIT_INTERRUPTED)
+
+
+class _simulation_progress:  # noqa: N801
+    """Progress bar on standard error, shown once a simulation reports its first step."""
+
+    def __init__(self) -> None:
+        self._bar = Progress(
+            TextColumn("simulated {task.completed:7.1f} of {task.total:.0f} s"),
+            BarColumn(),
+            TextColumn("{task.fields[speed]:5.1f} x real time"),
+            TimeRemainingColumn(),
+            TextColumn("left"),
+            console=Console(stderr=True),
+        )
+
+    def __enter__(self) -> Callable[[float, float], None]:
+        return self._update
+
+    def __exit__(self, *_: object) -> None:
+        self._bar.stop()
+
+    def _update(self, now: float, duration: float) -> None:
+        if not self._bar.tasks:
+            self._bar.start()
+            self._bar.add_task("", total=duration, speed=0.0)
+        task = self._bar.tasks[0]
+        elapsed = task.elapsed or 0.0
+        self._bar.update(task.id, completed=now, speed=now / elapsed if elapsed > 0 else 0.0)
+
+
+def _six_numbers(text: str) -> Array:
+    cells = text.split(",")
+    try:
+        values = np.array([float(cell) for cell in cells])
+    except ValueError:
+        values = np.array([np.nan])
+    if values.shape != (6,) or not np.all(np.isfinite(values)):
+        raise InputError(
+            "--tower-top-load",
+            text,
+            "six finite numbers FX,FY,FZ,MX,MY,MZ in N and N m",
+            "Separate them by commas, without blanks: 1e6,0,0,0,0,0.",
+        )
+    return values
+
+
+def _check_target(path: Path) -> None:
+    if path.is_dir():
+        raise InputError("--html", str(path), "a file name", "Name a file, such as fa2.html.")
+
+
+def _check_directory(path: Path) -> None:
+    if path.exists() and not path.is_dir():
+        raise InputError("--out", str(path), "a directory", "Name another place.")
+
+
+def _print_json(data: dict[str, Any]) -> None:
+    print(json.dumps(data, indent=2, allow_nan=False))  # noqa: T201
+
+
+def _complain(message: str) -> None:
+    print(message, file=sys.stderr)  # noqa: T201
+
+
+def _print_surrogate(surrogate: str | None) -> None:
+    if surrogate:
+        Console().print(f"Surrogate soil: {surrogate}", style="yellow")
+
+
+def _print_overview(facts: Overview) -> None:
+    console = Console()
+    for title, rows in facts.tables():
+        table = Table(title=title, show_header=False, title_justify="left")
+        for name, value in rows:
+            table.add_row(name, value)
+        console.print(table)
+    _print_surrogate(facts.surrogate)

@@ -1,0 +1,471 @@
+"""What a report says: its headline, its key numbers, and the rows of its tables."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from importlib import metadata
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from offwind_pin.display.plots import FOUNDATION_NAMES
+from offwind_pin.display.wording import (
+    difference,
+    listing,
+    mode_name,
+    number,
+    orders_of_magnitude,
+    relative_difference,
+    sentence,
+)
+from offwind_pin.dynamics.sea import IrregularWaves
+from offwind_pin.dynamics.system import System
+from offwind_pin.structure.urdf import definition_hash
+
+if TYPE_CHECKING:
+    from offwind_pin.display.report import CaseReport, MomentSpectrum, Published, WindDescription
+
+CLOSE = 0.02
+"""Relative difference from a published value that the headline calls close."""
+
+_BAR = 0.10
+"""Relative difference at which the bars in the table of published values end."""
+
+_DESCRIPTIVE = {"title", "surrogates", "frame", "status", "mudline_m"}
+_PROVENANCE_NAMES = {
+    "turbine": "turbine",
+    "definition_sha256": "hash of the definition (SHA-256)",
+    "foundation": "foundation",
+    "sea": "sea",
+    "elements": "multibody beam elements",
+    "wave_seed": "seed of the waves",
+    "tower_top_load_origin": "tower-top load",
+    "integrator": "time integration",
+    "dt_s": "time step, s",
+    "ramp_s": "ramp, s",
+    "spectral_radius": "spectral radius at infinite frequency",
+    "residual_tolerance": "tolerance of the residual over the load scale",
+    "offwind_pin_version": "offwind-pin",
+    "pinocchio_version": "Pinocchio",
+}
+
+
+@dataclass(frozen=True)
+class Card:
+    """One key number with its unit and what it is."""
+
+    value: str
+    unit: str
+    meaning: str
+
+
+@dataclass(frozen=True)
+class Surrogate:
+    """What stands in, why, and how to replace it."""
+
+    what: str
+    why: str
+    remedy: str
+
+
+@dataclass(frozen=True)
+class PublishedRow:
+    """A published value beside ours; bar from -1 to 1, or None without ours."""
+
+    published: Published
+    difference: str
+    bar: float | None
+
+
+@dataclass(frozen=True)
+class ModeRow:
+    """A mode as the table shows it; published joins the values printed for it, in Hz."""
+
+    label: str
+    name: str
+    frequency_hz: float
+    damping_ratio: float
+    peak_height_ratio: float
+    peak_height: float
+    published: str
+
+
+def foundation_name(name: str) -> str:
+    return FOUNDATION_NAMES.get(name, name)
+
+
+def headline(report: CaseReport) -> list[str]:
+    """The outcome in a few sentences, the most telling first."""
+    said = [
+        _status_sentence(report),
+        *_spectrum_sentences(report.psd),
+        *([] if report.psd else _history_sentences(report)),
+        *static_increases(report),
+        *_mode_sentences(report),
+        _published_sentence(report),
+    ]
+    return [sentence(text) for text in said if text]
+
+
+def cards(report: CaseReport) -> list[Card]:
+    """Up to four key numbers, those of the richest analysis of the case."""
+    chosen = _spectrum_cards(report.psd) + _static_cards(report) + _mode_cards(report)
+    if report.histories is not None and "realtime_factor" in report.summary:
+        factor = number(float(report.summary["realtime_factor"]), 3)
+        chosen.insert(3, Card(factor, "×", "faster than real time"))
+    return chosen[:4]
+
+
+def _status_sentence(report: CaseReport) -> str:
+    if report.histories is None:
+        return ""
+    status = report.histories.attrs.get("status", "complete")
+    if status == "complete":
+        return ""
+    end = float(report.histories.time.values[-1])
+    return f"this run is {status}: it ends at {number(end)} s, and what follows is what there is"
+
+
+def _spectrum_sentences(psd: MomentSpectrum | None) -> list[str]:
+    if psd is None:
+        return []
+    said = []
+    strongest = [psd.strongest_peak(band.low, band.high) for band in psd.bands[:2]]
+    found = [f"{peak:.3f} Hz" for peak in strongest if peak is not None]
+    if found:
+        said.append(f"the fore-aft moment at the mudline peaks at {listing(found)}")
+    if psd.ratio is not None:
+        first, second = psd.bands[:2]
+        said.append(
+            f"{first.low:g} to {first.high:g} Hz hold {number(psd.ratio, 3)} times as much of its "
+            f"variance as {second.low:g} to {second.high:g} Hz: {orders_of_magnitude(psd.ratio)}"
+        )
+    return said
+
+
+def _history_sentences(report: CaseReport) -> list[str]:
+    data = report.analysed
+    if data is None:
+        return []
+    top = data.tower_top_displacement.sel(direction="x")
+    moment = data.mudline_moment.sel(direction="y") / 1e6
+    return [
+        f"after the ramp the tower top moves between {number(float(top.min()), 3)} and "
+        f"{number(float(top.max()), 3)} m along x, and the fore-aft moment at the mudline between "
+        f"{number(float(moment.min()), 3)} and {number(float(moment.max()), 3)} MN m"
+    ]
+
+
+def static_increases(report: CaseReport) -> list[str]:
+    """How much further the tower top leans on each foundation than on the first."""
+    if len(report.statics) < 2:
+        return []
+    (name, first), *others = report.statics.items()
+    before = float(first.tower_top_displacement[0])
+    if before == 0:
+        return []
+    said = []
+    for other, result in others:
+        now = float(result.tower_top_displacement[0])
+        change = 100 * (abs(now) / abs(before) - 1)
+        word = "further" if change >= 0 else "less far"
+        said.append(
+            f"on {foundation_name(other)} the tower top leans {abs(change):.1f} % {word} than "
+            f"{foundation_name(name)}: {now:.3f} m along x instead of {before:.3f} m".replace(
+                "-", "−"
+            ).replace("fore−aft", "fore-aft")
+        )
+    return said
+
+
+def _mode_sentences(report: CaseReport) -> list[str]:
+    if report.modes is None:
+        return []
+    modes = report.modes
+    said = [
+        f"{mode_name(label)} {modes.frequency_hz[modes.index(label)]:.3f} Hz"
+        for label in ("FA1", "SS1", "FA2")
+        if label in modes.label
+    ]
+    where = foundation_name(report.system.foundation.name)
+    water = "in water" if report.system.sea is not None else "dry"
+    return [f"natural frequencies, {where}, {water}: {listing(said)}"] if said else []
+
+
+def _published_sentence(report: CaseReport) -> str:
+    compared = [
+        (abs(relative), row, row.ours)
+        for row in report.published
+        if row.ours is not None
+        and (relative := relative_difference(row.ours, row.value)) is not None
+    ]
+    if not compared:
+        return ""
+    close = sum(size <= CLOSE for size, *_ in compared)
+    _, farthest, ours = max(compared, key=lambda entry: entry[0])
+    how = difference(ours, farthest.value, farthest.unit)
+    return (
+        f"{close} of {len(compared)} published values are met within {100 * CLOSE:g} %; the farthest "
+        f"is {farthest.quantity}: {how}"
+    )
+
+
+def _spectrum_cards(psd: MomentSpectrum | None) -> list[Card]:
+    if psd is None:
+        return []
+    found = []
+    for order, band in zip(("first", "second"), psd.bands, strict=False):
+        peak = psd.strongest_peak(band.low, band.high)
+        if peak is not None:
+            meaning = f"strongest peak of the mudline moment, {order} band"
+            found.append(Card(f"{peak:.3f}", "Hz", meaning))
+    if psd.ratio is not None:
+        found.append(Card(number(psd.ratio, 3), "×", "PSD sum, first band over second"))
+    return found
+
+
+def _static_cards(report: CaseReport) -> list[Card]:
+    if report.histories is not None:
+        return []
+    found = [
+        Card(
+            f"{result.tower_top_displacement[0]:.3f}".replace("-", "−"),
+            "m",
+            f"tower top along x, {foundation_name(name)}",
+        )
+        for name, result in report.statics.items()
+    ]
+    if len(report.statics) == 2:
+        first, second = (abs(r.tower_top_displacement[0]) for r in report.statics.values())
+        if first > 0:
+            change = f"{100 * (second / first - 1):+.1f}".replace("-", "−")
+            found.append(Card(change, "%", "deflection, second over first"))
+    return found
+
+
+def _mode_cards(report: CaseReport) -> list[Card]:
+    modes = report.modes
+    if modes is None:
+        return []
+    return [
+        Card(f"{modes.frequency_hz[modes.index(label)]:.3f}", "Hz", f"{mode_name(label)} mode")
+        for label in ("FA1", "FA2", "SS1", "T1")
+        if label in modes.label
+    ]
+
+
+def surrogates(report: CaseReport) -> list[Surrogate]:
+    """Everything that stands in for numbers that are not to hand."""
+    found = []
+    soil = report.system.foundation.surrogate
+    if soil:
+        remedy = "Put the real p-y curves into a CSV table (depth_m, y_m, p_n_per_m) and name it in "
+        found.append(Surrogate("The soil", soil, remedy + "the turbine file."))
+    attributes = {} if report.histories is None else report.histories.attrs
+    loads = str(attributes.get("surrogates", "none")).split(" | ")
+    if report.wind is not None and report.wind.generator.surrogate not in loads:
+        loads.append(report.wind.generator.surrogate)
+    found += [
+        Surrogate(
+            "The load at the tower top",
+            sentence(text),
+            "Give the real history as seven columns: t, Fx, Fy, Fz, Mx, My, Mz in s, N and N m.",
+        )
+        for text in loads
+        if text not in ("none", "", soil)
+    ]
+    return found
+
+
+def published_rows(report: CaseReport) -> list[PublishedRow]:
+    rows = []
+    for row in report.published:
+        if row.ours is None:
+            rows.append(PublishedRow(row, "not computed", None))
+            continue
+        relative = relative_difference(row.ours, row.value)
+        bar = 0.0 if relative is None else float(np.clip(relative / _BAR, -1, 1))
+        rows.append(PublishedRow(row, difference(row.ours, row.value, row.unit), bar))
+    return rows
+
+
+def structure_facts(system: System) -> list[tuple[str, str]]:
+    """Name and value with its unit, the numbers an engineer asks for first."""
+    turbine, chain = system.turbine, system.chain
+    mudline = turbine.site.mudline
+    mass = sum(body.mass for body in chain.body)
+    above = "mudline" if chain.base >= mudline else "pile toe"
+    facts = [
+        ("foundation", foundation_name(system.foundation.name)),
+        ("sea", describe_sea(system)),
+        ("height, mudline to yaw bearing", f"{number(chain.top - mudline, 5)} m"),
+        ("water depth", f"{number(turbine.site.water_depth)} m"),
+    ]
+    if chain.base < mudline:
+        facts.append(("embedded length", f"{number(mudline - chain.base)} m"))
+    facts += [
+        (f"tower and monopile, from the {above}", f"{number(mass / 1e3)} t"),
+        ("rotor-nacelle assembly", f"{number(chain.rna.mass / 1e3)} t"),
+        ("multibody beam elements", str(chain.elements)),
+        ("degrees of freedom", str(system.nv)),
+    ]
+    return facts
+
+
+def describe_sea(system: System) -> str:
+    """The sea in words."""
+    sea = system.sea
+    if sea is None:
+        return "none (dry)"
+    if isinstance(sea, IrregularWaves):
+        return (
+            f"irregular waves, Pierson-Moskowitz, Hs {number(sea.significant_height, 3)} m, "
+            f"Tp {number(sea.peak_period, 3)} s"
+        )
+    return "still water"
+
+
+def mode_rows(report: CaseReport) -> list[ModeRow]:
+    modes = report.modes
+    if modes is None:
+        return []
+    mudline, top = report.system.turbine.site.mudline, report.system.chain.top
+    rows = []
+    for i, label in enumerate(modes.label):
+        ratio = float(modes.shape_peak_height_ratio[i])
+        printed = [f"{row.value:g}" for row in report.published if row.mode == label]
+        rows.append(
+            ModeRow(
+                label,
+                mode_name(label),
+                float(modes.frequency_hz[i]),
+                float(modes.damping_ratio[i]),
+                ratio,
+                mudline + ratio * (top - mudline),
+                " / ".join(dict.fromkeys(printed)),
+            )
+        )
+    return rows
+
+
+def wind_steps(wind: WindDescription | None) -> list[tuple[str, str]]:
+    """The mean load's derivation, a quantity and its line each."""
+    if wind is None:
+        return []
+    rotor, passing = wind.rotor, wind.generator.blade_passing_frequency
+    blades = round(2 * np.pi * passing / rotor.rotor_speed)
+    return [
+        (
+            "Rotor speed",
+            f"Ω = 2π f₃ₚ / {blades} = 2π · {number(passing, 3)} Hz / {blades} = "
+            f"{number(rotor.rotor_speed)} rad/s ({number(rotor.rotor_speed * 30 / np.pi, 3)} rpm)"
+            if blades == 3
+            else f"Ω = {number(rotor.rotor_speed)} rad/s",
+        ),
+        (
+            "Tip-speed ratio",
+            f"λ = Ω R / U = {number(rotor.rotor_speed)} · {number(rotor.radius)} m / "
+            f"{number(rotor.wind_speed)} m/s = {number(rotor.tip_speed_ratio, 3)}",
+        ),
+        (
+            "Power coefficient",
+            f"Cp = {number(rotor.power_coefficient, 3)}, the best of a rotor with this λ, "
+            f"{blades} blades and a lift-to-drag ratio of 100 (Manwell, McGowan and Rogers, "
+            "Eq. 3.109)",
+        ),
+        (
+            "Induction and thrust",
+            f"Momentum theory gives a = {number(rotor.induction, 3)} and "
+            f"Ct = 4a(1 − a) = {number(rotor.thrust_coefficient, 3)}",
+        ),
+        (
+            "Mean thrust",
+            f"T = Ct · ½ρAU² = {number(rotor.thrust / 1e6)} MN, with ρ = 1.225 kg/m³ and "
+            f"A = {number(rotor.swept_area)} m²",
+        ),
+        (
+            "Mean torque",
+            f"Q = Cp · ½ρAU³ / Ω = {number(rotor.torque / 1e6)} MN m",
+        ),
+    ]
+
+
+def psd_rows(psd: MomentSpectrum | None) -> list[tuple[str, float, float | None]]:
+    """Marked name, its frequency, and the nearest peak found, by rising frequency."""
+    if psd is None:
+        return []
+    marked = sorted(psd.marked.items(), key=lambda item: item[1])
+    return [(name, frequency, psd.nearest_peak(frequency)) for name, frequency in marked]
+
+
+def damping_rows(system: System) -> list[tuple[str, float, float]]:
+    """Label, damping ratio asked for and achieved on the calibration's own system."""
+    calibration = system.turbine.structural_damping
+    if calibration is None:
+        return []
+    return [
+        (label, calibration.ratios[label], achieved)
+        for label, achieved in system.damping_ratios.items()
+        if label in calibration.ratios
+    ]
+
+
+def solver_account(report: CaseReport) -> list[tuple[str, str]]:
+    """What the solver did, name and value."""
+    rows: list[tuple[str, str]] = []
+    data, summary = report.histories, report.summary
+    if data is not None:
+        time, taken = data.time.values, data.solver_iterations.values[1:]
+        rows += [
+            ("status", str(data.attrs.get("status", "unknown"))),
+            ("simulated time", f"{number(float(time[-1]))} s"),
+            ("time steps", number(round(float(time[-1]) / float(data.attrs["dt_s"])), 7)),
+        ]
+        if len(taken):
+            rows.append(
+                ("Newton iterations a step", f"{taken.mean():.2f} on average, {taken.max()} at most")
+            )
+            worst = float(data.solver_residual.max())
+            tolerance = float(data.attrs["residual_tolerance"])
+            rows.append(
+                (
+                    "largest residual over the load scale",
+                    f"{number(worst, 2)} (allowed: {number(tolerance, 2)})",
+                )
+            )
+    rows += [
+        (
+            f"static state, {foundation_name(name)}",
+            f"{state.iterations} Newton iterations, residual {number(state.residual, 2)}",
+        )
+        for name, state in report.statics.items()
+    ]
+    if "wall_s" in summary:
+        rows.append(("wall time", f"{number(float(summary['wall_s']), 3)} s"))
+    if data is not None and "realtime_factor" in summary:
+        factor = number(float(summary["realtime_factor"]), 3)
+        rows.append(("real-time factor", f"{factor} (simulated over wall time)"))
+    return rows
+
+
+def provenance(report: CaseReport) -> list[tuple[str, str]]:
+    """Versions, seeds, settings and the hash of the definition."""
+    system = report.system
+    known: dict[str, Any] = {
+        "turbine": system.turbine.name,
+        "definition_sha256": definition_hash(system.turbine),
+        "foundation": system.foundation.name,
+        "elements": system.chain.elements,
+        "offwind_pin_version": metadata.version("offwind-pin"),
+        "pinocchio_version": metadata.version("pin"),
+    }
+    if report.histories is not None:
+        known |= report.histories.attrs
+        if known.get("wave_seed") == -1:
+            del known["wave_seed"]
+    known["sea"] = describe_sea(system)
+    if report.wind is not None:
+        known["seed of the synthetic wind"] = report.wind.generator.seed
+    ordered = [key for key in _PROVENANCE_NAMES if key in known]
+    others = [key for key in known if key not in _PROVENANCE_NAMES and key not in _DESCRIPTIVE]
+    return [(_PROVENANCE_NAMES.get(key, key), str(known[key])) for key in ordered + others]

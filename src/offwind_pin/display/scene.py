@@ -1,0 +1,218 @@
+"""A system drawn with meshcat: structure, rotor, springs, sea and ground, and a mode at work."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from offwind_pin.display.meshes import Mesh, box, disc, hollow_frustum, loft
+from offwind_pin.display.motion import FRAMES, ModeMotion
+from offwind_pin.display.recorder import meshcat_animation, meshcat_geometry
+from offwind_pin.display.rotor import rna_meshes
+from offwind_pin.display.springs import Spring, foundation_springs, zigzag
+from offwind_pin.dynamics.system import System
+from offwind_pin.structure.section import frusta, outer_diameter
+from offwind_pin.structure.urdf import body_links
+from offwind_pin.turbines.definition import Array
+
+COLOUR_MAP = "viridis"
+CYCLE = 4.0
+"""Seconds that one cycle takes on the screen."""
+
+MUDLINE_COLOUR, WATER_COLOUR, SPRING_COLOUR = 0xA07C4B, 0x3D8FD1, 0x46505A
+_RNA_COLOUR, _BLOCK_COLOUR, _STRIPE_COLOUR = 0xE9ECEF, 0x5A5F66, 0x20242A
+_MOTION_PLANE = {"SS": np.array([0.0, 1.0, 0.0])}
+_ALONG_X = np.array([1.0, 0.0, 0.0])
+
+
+def draw_mode(view: Any, system: System, motion: ModeMotion) -> None:
+    """Draw a system and set a mode going, endlessly.
+
+    Parameters
+    ----------
+    view : a ``meshcat.Visualizer``
+    """
+    springs = foundation_springs(system, _MOTION_PLANE.get(motion.family, _ALONG_X))
+    _light(view)
+    draw_bodies(view, system, motion)
+    draw_site(view, system)
+    draw_springs(view, system, springs)
+    clips = _body_clips(view, system, motion) | _spring_clips(view, springs, motion)
+    view.set_animation(meshcat_animation.Animation(clips), repetitions=np.inf)
+
+
+def draw_bodies(view: Any, system: System, motion: ModeMotion) -> None:
+    """One object for each rigid body, coloured by its amplitude, and the rotor-nacelle assembly.
+
+    The latter hangs below the last body in the tree of objects, and so moves with it. Torsion does
+    not move the outline of a round tower: there the bodies carry stripes.
+    """
+    chain = system.chain
+    for k, (name, mesh) in enumerate(body_meshes(system).items()):
+        part = view["turbine"][name]
+        colour = _as_hex(mpl.colormaps[COLOUR_MAP](float(motion.share[k])))
+        _set_mesh(part["wall"], mesh, colour)
+        if motion.family == "T":
+            _set_mesh(part["stripes"], _stripes(system, k), _STRIPE_COLOUR)
+        part.set_transform(motion.poses[0, k])
+    seat = np.eye(4)
+    seat[2, 3] = chain.top - chain.origin[-1]
+    rna = view["turbine"][body_links(chain)[-1]]["rna"]
+    rna.set_transform(seat)
+    diameter = float(outer_diameter(system.turbine, np.array([chain.top]))[0])
+    for name, mesh in rna_meshes(system.turbine.rna, diameter).items():
+        _set_mesh(rna[name], mesh, _RNA_COLOUR)
+
+
+def body_meshes(system: System) -> dict[str, Mesh]:
+    """Hollow frusta of each rigid body, in its frame, by the name of its link; the base first."""
+    chain, turbine = system.chain, system.turbine
+    result = {}
+    for k, name in enumerate(body_links(chain)):
+        low, high = _extent(system, k)
+        shells = frusta(turbine, low, high)
+        result[name] = Mesh.combine(
+            [hollow_frustum(base - chain.origin[k], shell) for base, shell in shells]
+        )
+    return result
+
+
+def draw_site(view: Any, system: System) -> None:
+    """Mudline and still-water level as translucent discs; a block where the base is clamped."""
+    chain, mudline = system.chain, system.turbine.site.mudline
+    height = chain.top - chain.base
+    radius = 0.3 * height
+    _set_mesh(view["site"]["mudline"], disc(radius, mudline), MUDLINE_COLOUR, opacity=0.42)
+    _set_mesh(view["site"]["still_water"], disc(radius, 0.0), WATER_COLOUR, opacity=0.26)
+    if system.foundation.root is None:
+        half, deep = 0.045 * height, 0.035 * height
+        block = box([-half, -half, chain.base - deep], [half, half, chain.base])
+        _set_mesh(view["site"]["clamp"], block, _BLOCK_COLOUR)
+
+
+def draw_springs(view: Any, system: System, springs: list[Spring]) -> None:
+    """Springs as bent rods, each in axes with x from its anchor to its body."""
+    height = system.chain.top - system.chain.base
+    width = (0.011 if system.foundation.soil else 0.022) * height
+    for spring in springs:
+        symbol = zigzag(spring.rest_length, width, radius=0.0014 * height)
+        _set_mesh(view["springs"][spring.name], symbol, SPRING_COLOUR)
+
+
+def view_extent(system: System) -> tuple[float, float, float]:
+    """Lowest and highest height in m that a view must show, and half its breadth in m."""
+    chain, rna = system.chain, system.turbine.rna
+    diameter = float(outer_diameter(system.turbine, np.array([chain.top]))[0])
+    points = np.concatenate([mesh.vertices for mesh in rna_meshes(rna, diameter).values()])
+    height = chain.top - chain.base
+    breadth = max(float(np.abs(points[:, :2]).max()), 0.3 * height)
+    low = min(chain.base, system.turbine.site.mudline) - 0.05 * height
+    return low, chain.top + max(float(points[:, 2].max()), 0.05 * height), breadth
+
+
+def _body_clips(view: Any, system: System, motion: ModeMotion) -> dict[Any, Any]:
+    """Animation of each body, by its path."""
+    clips = {}
+    for k, name in enumerate(body_links(system.chain)):
+        pose = motion.poses[:, k]
+        clips[view["turbine"][name].path] = _clip(
+            position=pose[:, :3, 3], quaternion=_quaternion(pose[:, :3, :3])
+        )
+    return clips
+
+
+def _spring_clips(view: Any, springs: list[Spring], motion: ModeMotion) -> dict[Any, Any]:
+    """Animation of each spring, by its path: it turns about its anchor and changes its length."""
+    clips = {}
+    for spring in springs:
+        part = view["springs"][spring.name]
+        part.set_property("position", spring.anchor.tolist())
+        rotation, length = spring.stretch(motion.poses)
+        stretch = length / spring.rest_length
+        scale = np.column_stack([stretch, np.ones((len(stretch), 2))])
+        clips[part.path] = _clip(quaternion=_quaternion(rotation), scale=scale)
+    return clips
+
+
+def _clip(**tracks: Array) -> Any:
+    """Animation of properties, each with one row for each frame."""
+    kinds = {"position": "vector3", "scale": "vector3", "quaternion": "quaternion"}
+    frames = list(range(FRAMES + 1))
+    return meshcat_animation.AnimationClip(
+        {
+            name: meshcat_animation.AnimationTrack(name, kinds[name], frames, values.tolist())
+            for name, values in tracks.items()
+        },
+        fps=FRAMES / CYCLE,
+    )
+
+
+def _quaternion(rotation: Array) -> Array:
+    """(f, 4) quaternions x, y, z, w of rotations (f, 3, 3)."""
+    return np.asarray(Rotation.from_matrix(rotation).as_quat())
+
+
+def _light(view: Any) -> None:
+    """Light and sky for something 300 m tall; meshcat's own suit a robot of 2 m."""
+    view["/Background"].set_property("top_color", [0.80, 0.88, 0.95])
+    view["/Background"].set_property("bottom_color", [0.97, 0.98, 0.99])
+    for helper in ("/Grid", "/Axes"):
+        view[helper].set_property("visible", value=False)
+    lights = {
+        "AmbientLight": (0.58, None),
+        "FillLight": (0.5, [-400.0, -1000.0, 700.0]),
+        "PointLightPositiveX": (0.22, [1500.0, -600.0, 300.0]),
+        "PointLightNegativeX": (0.12, [-1500.0, 300.0, -200.0]),
+    }
+    for name, (intensity, position) in lights.items():
+        light = view[f"/Lights/{name}/<object>"]
+        light.set_property("intensity", intensity)
+        if position is not None:
+            light.set_property("position", position)
+        if name.startswith("Point"):
+            light.set_property("distance", 0)
+
+
+def _set_mesh(part: Any, mesh: Mesh, colour: int, opacity: float = 1.0) -> None:
+    # A translucent surface is seen from both sides, and what lies behind it must still be drawn, so
+    # it leaves no mark in depth.
+    solid = opacity == 1.0
+    material = meshcat_geometry.MeshPhongMaterial(
+        color=colour,
+        opacity=opacity,
+        side=0 if solid else 2,
+        depthWrite=solid,
+        shininess=12,
+        specular=0x222222,
+    )
+    part.set_object(meshcat_geometry.TriangularMeshGeometry(mesh.vertices, mesh.faces), material)
+
+
+def _stripes(system: System, k: int) -> Mesh:
+    """Four strips along the wall of a body, dark to stand out where it turns."""
+    low, high = _extent(system, k)
+    strips = []
+    for base, shell in frusta(system.turbine, low, high):
+        z = base - system.chain.origin[k]
+        for turn in np.arange(4) * np.pi / 2 + np.pi / 4:
+            angle = turn + np.array([-0.12, 0.12])
+            rims = []
+            for radius, level in ((shell.outer_bottom, z), (shell.outer_top, z + shell.height)):
+                points = 1.02 * radius * np.column_stack([np.cos(angle), np.sin(angle)])
+                rims.append(np.column_stack([points, np.full(2, level)]))
+            strips.append(loft(np.array(rims), capped=False))
+    return Mesh.combine(strips)
+
+
+def _extent(system: System, k: int) -> tuple[float, float]:
+    """Heights in m between which body k lies."""
+    chain = system.chain
+    return float(chain.origin[k]), float(np.append(chain.origin[1:], chain.top)[k])
+
+
+def _as_hex(rgba: tuple[float, ...]) -> int:
+    red, green, blue = (round(255 * part) for part in rgba[:3])
+    return (red << 16) + (green << 8) + blue

@@ -1,0 +1,166 @@
+"""One look for all figures, and figures as SVG that an HTML page can hold."""
+
+from __future__ import annotations
+
+import functools
+import re
+from collections.abc import Callable, Sequence
+from io import StringIO
+from typing import Any, ParamSpec, TypeVar
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+P = ParamSpec("P")
+R = TypeVar("R")
+
+BLUE, VERMILLION, GREEN = "#0072B2", "#D55E00", "#009E73"
+ORANGE, PURPLE, SKY, INK = "#E69F00", "#CC79A7", "#56B4E9", "#1f2430"
+PALETTE = (BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY)
+"""Okabe and Ito's colours, told apart with any kind of colour vision."""
+
+MUTED, SOIL, WATER, STEEL = "#5d6573", "#efe6d6", "#e3f0f9", "#c9cfd6"
+FULL_WIDTH = 9.6
+"""Inches; a figure that fills the text column of the report."""
+
+_STYLE: dict[str, Any] = {
+    "axes.edgecolor": MUTED,
+    "axes.labelcolor": INK,
+    "axes.labelsize": 9.5,
+    "axes.linewidth": 0.8,
+    "axes.spines.right": False,
+    "axes.spines.top": False,
+    "axes.titlelocation": "left",
+    "axes.titlesize": 10.5,
+    "axes.titleweight": "bold",
+    "figure.facecolor": "white",
+    "figure.constrained_layout.use": True,
+    "font.family": "sans-serif",
+    "font.sans-serif": ["DejaVu Sans"],
+    "font.size": 9.5,
+    "grid.color": "#e3e6ea",
+    "grid.linewidth": 0.7,
+    "axes.axisbelow": True,
+    "legend.frameon": False,
+    "legend.fontsize": 9.5,
+    "lines.linewidth": 1.5,
+    "lines.solid_capstyle": "round",
+    "text.color": INK,
+    # A name with a dollar sign is a name, not a formula.
+    "text.parse_math": False,
+    "xtick.color": MUTED,
+    "xtick.labelcolor": INK,
+    "xtick.labelsize": 9,
+    "ytick.color": MUTED,
+    "ytick.labelcolor": INK,
+    "ytick.labelsize": 9,
+}
+
+
+def styled(draw: Callable[P, R]) -> Callable[P, R]:
+    """Draw in the project's style and leave matplotlib's own settings as they were."""
+
+    @functools.wraps(draw)
+    def wrapper(*args: P.args, **kwargs: P.kwargs) -> R:
+        with mpl.rc_context(_STYLE):
+            return draw(*args, **kwargs)
+
+    return wrapper
+
+
+@styled
+def to_svg(figure: Figure, name: str) -> str:
+    """An ``<svg>`` element for an HTML page, the same text for the same figure.
+
+    Text stays text: smaller, searchable, and set in the page's own typeface. It is laid out in
+    DejaVu Sans, which is wider than what browsers usually have, so nothing collides.
+
+    name : prefix of every id, different for each figure of a page
+    """
+    buffer = StringIO()
+    with mpl.rc_context({"svg.fonttype": "none", "svg.hashsalt": name}):
+        figure.savefig(buffer, format="svg", metadata={"Date": None})
+    text = buffer.getvalue()
+    text = text[text.index("<svg") :]
+    text = re.sub(r"\s*<metadata>.*?</metadata>", "", text, flags=re.DOTALL)
+    text = re.sub(r'\s+xmlns(:\w+)?="[^"]*"', "", text, count=2)
+    text = re.sub(r'\bid="', f'id="{name}-', text)
+    text = re.sub(r'(?:xlink:)?href="#', f'href="#{name}-', text)
+    return text.replace("url(#", f"url(#{name}-").strip()
+
+
+def spread(wanted: Sequence[float], width: float) -> Array:
+    """(n,) places as near as possible to the wanted ones, at least a width apart, order kept.
+
+    Least squares by pooling neighbours that would collide.
+    """
+    order = np.argsort(wanted, kind="stable")
+    groups: list[tuple[float, int]] = []
+    for rank, target in enumerate(np.asarray(wanted, dtype=float)[order]):
+        mean, size = float(target) - rank * width, 1
+        while groups and groups[-1][0] > mean:
+            before, count = groups.pop()
+            mean, size = (before * count + mean * size) / (count + size), size + count
+        groups.append((mean, size))
+    shifted = np.repeat([mean for mean, _ in groups], [size for _, size in groups])
+    places = np.empty(len(order))
+    places[order] = shifted + width * np.arange(len(order))
+    return places
+
+
+def thin(time: Array, values: Array, columns: int) -> tuple[Array, Array]:
+    """At most two samples for each column of a picture: its smallest and its largest.
+
+    No extreme is lost, and a long history stays a small picture.
+    """
+    size = -(-len(values) // columns)
+    if size <= 2:
+        return time, values
+    starts = range(0, len(values), size)
+    kept = sorted(
+        {
+            start + int(pick(values[start : start + size]))
+            for start in starts
+            for pick in (np.argmin, np.argmax)
+        }
+    )
+    return time[kept], values[kept]
+
+
+def powers_of_ten(value: float, _: int | None = None) -> str:
+    """10 with a raised exponent, in plain characters."""
+    exponent = round(np.log10(value))
+    return "10" + str(exponent).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+
+
+POWERS_OF_TEN = FuncFormatter(powers_of_ten)
+
+
+def mark_levels(axes: Axes, mudline: float, *, water: bool, labels: bool = True) -> None:
+    """Ground, mudline and still water line behind curves over height."""
+    low = axes.get_ylim()[0]
+    if low < mudline:
+        axes.axhspan(low, mudline, color=SOIL, lw=0, zorder=0)
+        axes.set_ylim(bottom=low)
+    levels = [(mudline, "mudline", "#8a6d3b")]
+    levels += [(0.0, "still water", BLUE)] if water else []
+    for height, name, color in levels:
+        axes.axhline(height, color=color, lw=0.8, ls=(0, (5, 3)), zorder=1)
+        if labels:
+            axes.annotate(
+                name,
+                (1, height),
+                xycoords=("axes fraction", "data"),
+                xytext=(-2, 2),
+                textcoords="offset points",
+                ha="right",
+                fontsize=8.5,
+                color=color,
+                bbox={"boxstyle": "square,pad=0.1", "fc": "white", "ec": "none", "alpha": 0.7},
+                zorder=5,
+            )

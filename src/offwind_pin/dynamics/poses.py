@@ -1,0 +1,33 @@
+"""Where the rigid bodies of a system are, for drawing."""
+
+from __future__ import annotations
+
+import numpy as np
+import pinocchio as pin
+
+from offwind_pin.dynamics.system import System
+from offwind_pin.turbines.definition import Array
+
+
+def body_poses(system: System, q: Array) -> Array:
+    """Poses of the rigid bodies for joint displacements ``q``, by Pinocchio's forward kinematics.
+
+    Body 0 has its frame at the base, the others at the joints below them; z points up along the
+    axis. The rotor-nacelle assembly is fixed to the last body, ``chain.top - chain.origin[-1]``
+    above its frame.
+
+    Parameters
+    ----------
+    q : (nv,) joint displacements in m and rad
+
+    Returns
+    -------
+    (N + 1, 4, 4) homogeneous transforms from body to inertial axes, lengths in m
+    """
+    chain, data = system.chain, system.scratch.data
+    pin.forwardKinematics(system.pin_model, data, q)
+    joints = chain.roots + 3 * np.arange(chain.elements + 1)
+    poses = np.array([data.oMi[int(joint)].homogeneous for joint in joints])
+    if not chain.free_root:
+        poses[0, 2, 3] = chain.base
+    return poses

@@ -1,0 +1,33 @@
+"""Fitted orders, central differences and directional checks."""
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+def fitted_order(sizes: Sequence[float] | Array, errors: Sequence[float] | Array) -> float:
+    """Slope of log error over log size by least squares: the observed order of convergence."""
+    return float(np.polyfit(np.log(sizes), np.log(np.abs(errors)), 1)[0])
+
+
+def central_differences(function: Callable[[Array], Array], x: Array, step: float) -> Array:
+    """(m, n) Jacobian; error of order step^2 from truncation and eps / step from rounding."""
+    columns = []
+    for unit in np.eye(len(x)):
+        columns.append((function(x + step * unit) - function(x - step * unit)) / (2 * step))
+    return np.array(columns).T
+
+
+def relative_difference(value: Array, reference: Array) -> float:
+    """Largest difference over the largest reference entry."""
+    return float(np.max(np.abs(value - reference)) / np.max(np.abs(reference)))
+
+
+def fourth_order_differences(function: Callable[[Array], Array], x: Array, step: float) -> Array:
+    """(m, n) Jacobian by five-point differences; truncation of order step^4."""
+    near = central_differences(function, x, step)
+    far = central_differences(function, x, 2 * step)
+    return (4 * near - far) / 3

@@ -1,0 +1,130 @@
+"""Plain structures with known answers: clamped tubes with a negligible assembly on top."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+import offwind_pin as ow
+from offwind_pin.analysis.static import StaticResult
+from offwind_pin.dynamics.system import System
+from offwind_pin.loads.points import PointLoad
+from offwind_pin.loads.tower_top import constant_load
+from offwind_pin.solve.eigen import natural_modes
+from offwind_pin.solve.newton import newton
+
+Array = NDArray[np.float64]
+
+YOUNG, SHEAR, DENSITY = 2.0e11, 8.0e10, 8000.0
+LENGTH, DIAMETER, THICKNESS = 100.0, 6.0, 0.06
+
+
+def tube(
+    *,
+    length: float = LENGTH,
+    bottom: tuple[float, float] = (DIAMETER, THICKNESS),
+    top: tuple[float, float] = (DIAMETER, THICKNESS),
+    young: float = YOUNG,
+    density: float = DENSITY,
+    gravity: float = 0.0,
+    top_mass: float = 1e-3,
+    embedded: float = 0.0,
+) -> ow.Turbine:
+    """A tube of one member, its diameter and wall (m) linear in height, mudline at z = -20 m.
+
+    The body on top is a thousandth of a kilogram unless told: 1e-9 of the tube. ``model_copy`` does
+    not validate, so that gravity may be zero, which no turbine file can ask for.
+    """
+    low = -20.0 - embedded
+    high = -20.0 + length
+    turbine = ow.Turbine.model_validate(
+        {
+            "name": "tube",
+            "site": {
+                "water_depth": 20.0,
+                "water_density": 1000.0,
+                "gravity": max(gravity, 1.0),
+            },
+            "materials": {
+                "steel": {"youngs_modulus": young, "shear_modulus": SHEAR, "density": density}
+            },
+            "members": [
+                {
+                    "name": "tower",
+                    "material": "steel",
+                    "stations": [
+                        {"z": low, "diameter": bottom[0], "thickness": bottom[1]},
+                        {"z": high, "diameter": top[0], "thickness": top[1]},
+                    ],
+                }
+            ],
+            "rna": {
+                "kind": "rigid_body",
+                "mass": top_mass,
+                "center_of_mass": (0.0, 0.0, 0.0),
+                "inertia": np.diag([top_mass] * 3).tolist(),
+            },
+            "hydrodynamics": {"added_mass_coefficient": 1.0, "drag_coefficient": 1.0},
+            "soil": {},
+        }
+    )
+    site = turbine.site.model_copy(update={"gravity": gravity})
+    return turbine.model_copy(update={"site": site})
+
+
+def bending_stiffness(diameter: float = DIAMETER, thickness: float = THICKNESS) -> float:
+    """EI in N m2 of a tube, written out once more."""
+    inner = diameter - 2 * thickness
+    return YOUNG * np.pi / 64 * (diameter**4 - inner**4)
+
+
+def mass_per_length(diameter: float = DIAMETER, thickness: float = THICKNESS) -> float:
+    """kg/m of a tube."""
+    inner = diameter - 2 * thickness
+    return DENSITY * np.pi / 4 * (diameter**2 - inner**2)
+
+
+def polar_inertia(diameter: float = DIAMETER, thickness: float = THICKNESS) -> float:
+    """Polar second moment of area of a tube in m4."""
+    inner = diameter - 2 * thickness
+    return np.pi / 32 * (diameter**4 - inner**4)
+
+
+def equilibrium(
+    system: System, top_load: Sequence[float] | Array | None = None, *, scale: float
+) -> StaticResult:
+    """Static state of a structure whose own load scale vanishes with its top mass or gravity."""
+    loads: list[PointLoad] = []
+    if top_load is not None:
+        loads = [constant_load(system.chain.top, np.asarray(top_load, dtype=float))]
+    equations = system.equations(loads, ramp_time=np.inf)
+    rest = np.zeros(system.nv)
+    found = newton(
+        lambda q: equations.residual(0.0, q, rest, rest),
+        lambda q: equations.tangents(0.0, q, rest)[0],
+        rest,
+        scale=scale,
+        relative_tolerance=1e-12,
+    )
+    assert found.converged
+    points = equations.chain_motion(found.x, rest).points_at(system.chain.boundary)
+    return StaticResult(
+        q=found.x,
+        height=system.chain.boundary,
+        displacement=points.displacement,
+        rotation=np.zeros_like(points.displacement),
+        section_load=np.zeros((len(system.chain.boundary), 6)),
+        iterations=found.iterations,
+        residual=0.0,
+        mudline=system.turbine.site.mudline,
+        loads=tuple(loads),
+    )
+
+
+def frequencies(system: System, count: int) -> Array:
+    """(count,) natural frequencies in rad/s about the undeformed state."""
+    rest = np.zeros(system.nv)
+    equations = system.equations((), ramp_time=np.inf)
+    stiffness, _ = equations.tangents(0.0, rest, rest)
+    squares, _ = natural_modes(stiffness, equations.mass(rest), count)
+    return np.sqrt(squares)

@@ -1,0 +1,29 @@
+"""States far from rest, and systems stripped of what hides small terms."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+import offwind_pin as ow
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class State:
+    """Joint displacements, velocities and accelerations far from rest and from one another."""
+
+    q: Array
+    v: Array
+    a: Array
+
+
+def random_state(system: ow.System, seed: int = 0, size: float = 0.1) -> State:
+    rng = np.random.default_rng(seed)
+    return State(*(size * rng.uniform(-1, 1, system.nv) for _ in range(3)))
+
+
+def without_joint_springs(system: ow.System) -> ow.System:
+    """The same without the chain's own springs, which would hide every smaller term."""
+    return replace(system, joint_stiffness=np.zeros(system.nv))

@@ -1,0 +1,137 @@
+"""Section loads against joint springs, weights and reactions."""
+
+from itertools import islice
+
+import numpy as np
+import pinocchio as pin
+import pytest
+from numpy.testing import assert_allclose
+from numpy.typing import NDArray
+
+import offwind_pin as ow
+from offwind_pin.analysis.static import load_scale
+from offwind_pin.dynamics.section_loads import SectionCuts
+from offwind_pin.dynamics.system import Equations
+from offwind_pin.loads.tower_top import TowerTopLoad
+from offwind_pin.solve.generalized_alpha import GeneralizedAlpha, Step
+from offwind_pin.structure.section import lump
+
+Array = NDArray[np.float64]
+
+
+@pytest.fixture(scope="module")
+def equations(coarse: ow.System) -> Equations:
+    """Waves and a load at the top that shakes all six directions."""
+    time = np.linspace(0, 5, 101)
+    shape = np.sin(np.outer(2 * time, [1.0, 1.3, 0.7, 1.1, 0.9, 1.7]))
+    load = shape * [2e6, 1e6, 5e5, 1e7, 2e7, 3e7]
+    history = ow.LoadHistory(time, load, "test")
+    return coarse.equations([TowerTopLoad(coarse.chain.top, history, load[0])])
+
+
+@pytest.fixture(scope="module")
+def moving(coarse: ow.System, equations: Equations) -> Step:
+    """A state two seconds after a start from the undeformed shape: everything moves."""
+    method = GeneralizedAlpha(0.05)
+    rest = np.zeros(coarse.nv)
+    steps = method.steps(equations, rest, rest, count=40, scale=load_scale(coarse))
+    *_, last = islice(steps, 41)
+    return last
+
+
+def moments_at_joints(equations: Equations, step: Step, a: Array) -> Array:
+    """(nv - roots,) section moments at the nodes along their joints' axes."""
+    chain = equations.chain
+    state = equations.evaluate(step.time, step.q, step.v, a)
+    cuts = SectionCuts(equations, chain.joint_height)
+    moment = cuts.loads(state, step.q, step.v, a)[:, 3:]
+    axes = state.motion.jacobian[3:, chain.roots :].reshape(3, -1, 3)
+    return np.einsum("nj,jnk->nk", moment, axes).ravel()
+
+
+def test_section_moments_are_what_springs_and_dampers_carry(
+    coarse: ow.System, equations: Equations, moving: Step
+) -> None:
+    """M = K q + D v at every node, from the dynamics on one side and the joints on the other.
+
+    They differ by the residual that the time step was left with.
+    """
+    carried = coarse.joint_stiffness * moving.q + coarse.joint_damping * moving.v
+    found = moments_at_joints(equations, moving, moving.a)
+    left = max(moving.residual, 1e-15) * load_scale(coarse)
+    assert moving.residual < 1e-9
+    assert np.abs(coarse.joint_damping * moving.v).max() > 1e4 * left
+    assert_allclose(found, carried[coarse.chain.roots :], rtol=1e-11, atol=3 * left)
+
+
+def test_a_wrong_acceleration_is_seen(
+    coarse: ow.System, equations: Equations, moving: Step
+) -> None:
+    """Negative control: an acceleration 1 % off breaks the equality."""
+    carried = coarse.joint_stiffness * moving.q + coarse.joint_damping * moving.v
+    found = moments_at_joints(equations, moving, 1.01 * moving.a)
+    assert np.abs(found - carried[coarse.chain.roots :]).max() > 1e-6 * load_scale(coarse)
+
+
+def test_base_of_a_clamped_turbine_carries_everything(clamped_dry: ow.System) -> None:
+    """In statics the base section load is the weight and the applied load at their places."""
+    load = np.array([1e6, -4e5, 2e5, 1e7, 2e7, 5e6])
+    result = ow.static(clamped_dry, load)
+    turbine, chain, model = clamped_dry.turbine, clamped_dry.chain, clamped_dry.pin_model
+    weight = turbine.site.gravity * np.array([0.0, 0.0, -1.0])
+    mass = pin.computeTotalMass(model)
+    center = pin.centerOfMass(model, model.createData(), result.q) - [0, 0, chain.base]
+    top = result.displacement[-1] + [0, 0, chain.top - chain.base]
+    force = load[:3] + (mass + chain.body[0].mass) * weight
+    moment = load[3:] + np.cross(top, load[:3]) + np.cross(center, mass * weight)
+    assert_allclose(result.section_load[0, :3], force, rtol=1e-11, atol=1e-3)
+    assert_allclose(result.section_load[0, 3:], moment, rtol=1e-11, atol=1e-2)
+    assert_allclose(result.mudline_load, result.section_load[0], rtol=0)
+
+
+def test_sections_differ_by_the_weight_between_them(clamped_dry: ow.System) -> None:
+    """Dry and at rest, the force falls from cut to cut by the weight between, up to the assembly."""
+    result = ow.static(clamped_dry)
+    turbine, chain = clamped_dry.turbine, clamped_dry.chain
+    between = [
+        turbine.site.gravity * lump(turbine, low, high).mass
+        for low, high in zip(chain.boundary, chain.boundary[1:], strict=False)
+    ]
+    assert_allclose(np.diff(result.section_load[:, 2]), between, rtol=1e-9)
+    top = -turbine.site.gravity * chain.rna.mass
+    assert result.section_load[-1, 2] == pytest.approx(top, rel=1e-12)
+
+
+def test_mudline_load_is_the_soil_reaction(distributed_wet: ow.System) -> None:
+    """What crosses the mudline sideways the soil takes up; downwards the toe does, with the pile."""
+    load = np.array([1e6, 3e5, 0, 0, 0, 2e6])
+    result = ow.static(distributed_wet, load)
+    rest = np.zeros(distributed_wet.nv)
+    equations = distributed_wet.equations(result.loads, ramp_time=np.inf)
+    state = equations.evaluate(0.0, result.q, rest, rest)
+    soil = state.points.position[:, 2] < -29.9
+    at_soil = state.forces.force[soil & (np.hypot(*state.forces.force[:, :2].T) > 0)]
+    assert_allclose(result.mudline_load[:2], -at_soil[:, :2].sum(axis=0), rtol=1e-9)
+    assert_allclose(result.mudline_load[:2], load[:2], rtol=1e-9)
+    turbine = distributed_wet.turbine
+    pile = turbine.site.gravity * lump(turbine, turbine.toe, turbine.site.mudline).mass
+    springs = turbine.soil.distributed_springs
+    assert springs is not None
+    toe = springs.toe_vertical_stiffness * result.q[2]
+    assert result.mudline_load[2] - pile == pytest.approx(toe, rel=1e-9)
+
+
+def test_shear_in_the_pile_falls_by_whole_nodes(distributed_wet: ow.System) -> None:
+    """Between two element boundaries the shear changes by the soil nodes between them.
+
+    A node that lies on a boundary belongs to the part below the cut, on every boundary alike.
+    """
+    result = ow.static(distributed_wet, np.array([1e6, 0, 0, 0, 0, 0]))
+    rest = np.zeros(distributed_wet.nv)
+    equations = distributed_wet.equations(result.loads, ramp_time=np.inf)
+    state = equations.evaluate(0.0, result.q, rest, rest)
+    height, force = equations.points.height, state.forces.force[:, 0]
+    boundary = distributed_wet.chain.boundary
+    expected = [force[height > z + 1e-6].sum() for z in boundary]
+    expected[-1] = 1e6
+    assert_allclose(result.section_load[:, 0], expected, rtol=1e-9, atol=1.0)

@@ -1,0 +1,106 @@
+"""The layering of the package, and its public names."""
+
+from __future__ import annotations
+
+import ast
+from pathlib import Path
+
+import pytest
+
+import offwind_pin
+
+PACKAGE = Path(offwind_pin.__file__).parent
+
+ALLOWED: dict[str, set[str]] = {
+    "errors": set(),
+    "turbines": {"errors"},
+    "structure": {"errors", "turbines"},
+    "loads": {"errors", "turbines"},
+    "solve": set(),
+    "results": set(),
+    "dynamics": {"errors", "turbines", "structure", "loads"},
+    "analysis": {"errors", "turbines", "structure", "loads", "dynamics", "solve", "results"},
+    "signal": {"errors", "results"},
+}
+"""What each folder may import of the package; display, campaign and cli may import everything."""
+
+PINOCCHIO = {"structure", "dynamics"}
+
+
+def _imports(path: Path) -> set[str]:
+    """Full names of everything a file imports."""
+    found: set[str] = set()
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Import):
+            found |= {alias.name for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            assert node.level == 0, f"{path}: relative import"
+            found |= {f"{node.module}.{alias.name}" for alias in node.names}
+    return found
+
+
+def _room(path: Path) -> str:
+    first = path.relative_to(PACKAGE).parts[0]
+    return first.removesuffix(".py")
+
+
+def _forbidden(room: str, imports: set[str]) -> set[str]:
+    """The imports that a room may not have."""
+    wrong = set()
+    for name in imports:
+        parts = name.split(".")
+        if parts[0] in {"sim", "viz"} or (parts[0] == "pinocchio" and room not in PINOCCHIO):
+            wrong.add(name)
+        if parts[0] == "offwind_pin" and room in ALLOWED and parts[1] not in ALLOWED[room] | {room}:
+            wrong.add(name)
+    return wrong
+
+
+@pytest.mark.parametrize("path", sorted(PACKAGE.rglob("*.py")), ids=lambda p: p.stem)
+def test_imports_follow_the_layers(path: Path) -> None:
+    """Each file imports only what its layer may."""
+    room = _room(path)
+    if room in {"__init__", "__main__"}:
+        return
+    assert _forbidden(room, _imports(path)) == set()
+
+
+def test_the_rule_can_fail() -> None:
+    """Negative control: imports against the layers are found."""
+    assert _forbidden("loads", {"pinocchio.rnea"})
+    assert _forbidden("solve", {"offwind_pin.turbines.definition"})
+    assert _forbidden("structure", {"offwind_pin.dynamics.system"})
+    assert not _forbidden("dynamics", {"pinocchio.rnea", "offwind_pin.loads.soil"})
+
+
+def test_every_folder_has_a_rule() -> None:
+    """A new folder must be given its layer."""
+    folders = {p.name for p in PACKAGE.iterdir() if p.is_dir() and p.name != "__pycache__"}
+    assert folders <= ALLOWED.keys() | {"display", "campaign"}
+
+
+def test_public_names() -> None:
+    """The public surface changes on purpose only."""
+    assert sorted(offwind_pin.__all__) == [
+        "InputError",
+        "InterruptedSimulation",
+        "IrregularWaves",
+        "LoadHistory",
+        "ModalResult",
+        "OffwindError",
+        "SolverError",
+        "StaticResult",
+        "StillWater",
+        "SyntheticWind",
+        "System",
+        "Turbine",
+        "build",
+        "export_urdf",
+        "load_turbine",
+        "modes",
+        "read_load_history",
+        "shipped_turbines",
+        "simulate",
+        "static",
+    ]
+    assert all(hasattr(offwind_pin, name) for name in offwind_pin.__all__)

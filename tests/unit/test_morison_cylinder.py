@@ -1,0 +1,133 @@
+"""Morison's force on a fixed vertical cylinder in a regular wave, in closed form."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+from helpers.numerics import fitted_order
+
+from offwind_pin.loads.morison import AddedMass, MorisonForce, Strips, normal_part
+from offwind_pin.loads.points import PointMotion
+from offwind_pin.loads.waves import IrregularSea, wave_number
+
+DEPTH, GRAVITY, DENSITY, DIAMETER = 30.0, 9.80665, 1025.0, 9.0
+AMPLITUDE, FREQUENCY = 1.5, 0.1
+ADDED, DRAG = 0.9, 1.1
+OMEGA = 2 * np.pi * FREQUENCY
+K = float(wave_number(np.array([OMEGA]), DEPTH, GRAVITY)[0])
+KH = K * DEPTH
+SEA = IrregularSea(
+    np.array([AMPLITUDE]), np.array([FREQUENCY]), np.array([0.0]), DEPTH, GRAVITY
+)
+
+
+@dataclass(frozen=True)
+class Wrench:
+    """Force along x in N and moment about the bed in N m."""
+
+    force: float
+    moment: float
+
+
+def exact_inertia() -> Wrench:
+    """Amplitudes by the integrals of cosh k s and s cosh k s over the depth (s from the bed)."""
+    line = DENSITY * (1 + ADDED) * np.pi * DIAMETER**2 / 4 * AMPLITUDE * OMEGA**2 / np.sinh(KH)
+    return Wrench(
+        line * np.sinh(KH) / K,
+        line * (DEPTH * np.sinh(KH) / K - (np.cosh(KH) - 1) / K**2),
+    )
+
+
+def exact_drag() -> Wrench:
+    """Amplitudes by the integrals of cosh^2 k s and s cosh^2 k s over the depth."""
+    line = 0.5 * DENSITY * DRAG * DIAMETER * (AMPLITUDE * OMEGA / np.sinh(KH)) ** 2
+    return Wrench(
+        line * (DEPTH / 2 + np.sinh(2 * KH) / (4 * K)),
+        line
+        * (
+            DEPTH**2 / 4
+            + DEPTH * np.sinh(2 * KH) / (4 * K)
+            - (np.cosh(2 * KH) - 1) / (8 * K**2)
+        ),
+    )
+
+
+def cylinder(strips: int) -> MorisonForce:
+    edges = np.linspace(-DEPTH, 0.0, strips + 1)
+    height, length = (edges[:-1] + edges[1:]) / 2, np.diff(edges)
+    parts = Strips(height, length, np.full(strips, DIAMETER))
+    return MorisonForce(parts, SEA.kinematics_at(height), DENSITY, ADDED, DRAG)
+
+
+def at_rest(load: MorisonForce, velocity: float = 0.0) -> PointMotion:
+    n = len(load.height)
+    place = np.zeros((n, 3))
+    place[:, 2] = load.height
+    moving = np.tile([velocity, 0.0, 0.0], (n, 1))
+    return PointMotion(place, np.zeros((n, 3)), moving, np.tile([0.0, 0.0, 1.0], (n, 1)))
+
+
+def wrench(load: MorisonForce, time: float) -> Wrench:
+    force = load.forces(time, at_rest(load), 1.0).force
+    assert np.all(force[:, 1:] == 0)
+    return Wrench(force[:, 0].sum(), float((load.height + DEPTH) @ force[:, 0]))
+
+
+CREST, ZERO_DOWN = 0.0, 0.25 / FREQUENCY
+"""Instants of pure drag (no horizontal acceleration) and of pure inertia (no velocity)."""
+
+
+@pytest.mark.parametrize("quantity", ["force", "moment"])
+@pytest.mark.parametrize(
+    ("time", "exact", "sign"),
+    [(CREST, exact_drag, 1), (ZERO_DOWN, exact_inertia, -1)],
+    ids=["drag", "inertia"],
+)
+def test_order_two_in_strip_length(quantity: str, time: float, exact, sign: int) -> None:
+    """The strips' midpoint rule meets the closed form with order 2."""
+    counts = np.array([10, 20, 40, 80])
+    reference = sign * getattr(exact(), quantity)
+    values = np.array([getattr(wrench(cylinder(n), time), quantity) for n in counts])
+    errors = values / reference - 1
+    assert abs(errors[-1]) < (K * DEPTH / 80) ** 2
+    assert fitted_order(1 / counts, errors) == pytest.approx(2.0, abs=0.1)
+
+
+@pytest.mark.parametrize("phase", [0.1, 0.35, 0.6, 0.85])
+def test_through_the_cycle(phase: float) -> None:
+    """Inertia goes with -sin, drag with cos |cos|, and they add."""
+    angle = 2 * np.pi * phase
+    expected = exact_drag().force * np.cos(angle) * abs(np.cos(angle))
+    expected -= exact_inertia().force * np.sin(angle)
+    found = wrench(cylinder(400), phase / FREQUENCY).force
+    assert found == pytest.approx(expected, abs=1e-5 * exact_inertia().force)
+
+
+def test_shipped_strips(oc6) -> None:
+    """Half-metre strips from the mudline to the water line: 60 of them, 30 m, rho Ca V of mass."""
+    height, length = Strips.between(oc6.site.mudline, 0.0)
+    assert len(height) == 60
+    assert length.sum() == pytest.approx(30.0, rel=1e-14)
+    mass = AddedMass.of(Strips(height, length, np.full(60, 9.0)), 1025.0, 1.0)
+    assert mass.mass.sum() == pytest.approx(1025.0 * np.pi / 4 * 81.0 * 30.0, rel=1e-13)
+
+
+def test_drag_is_on_the_relative_velocity() -> None:
+    """A cylinder that moves with v in still water is braked by rho/2 Cd D |v| v per length."""
+    still = IrregularSea(*np.zeros((3, 0)), DEPTH, GRAVITY)
+    load = cylinder(30)
+    load = MorisonForce(load.strips, still.kinematics_at(load.height), DENSITY, ADDED, DRAG)
+    force = load.forces(0.0, at_rest(load, velocity=0.7), 1.0).force[:, 0].sum()
+    assert force == pytest.approx(-0.5 * DENSITY * DRAG * DIAMETER * DEPTH * 0.7**2, rel=1e-13)
+
+
+def test_force_is_normal_to_the_deflected_axis() -> None:
+    """On an inclined cylinder nothing acts along its axis."""
+    load = cylinder(30)
+    tilt = 0.3
+    axis = np.tile([np.sin(tilt), 0.0, np.cos(tilt)], (30, 1))
+    motion = at_rest(load)
+    inclined = PointMotion(motion.position, motion.displacement, motion.velocity, axis)
+    force = load.forces(1.3, inclined, 1.0).force
+    assert np.abs(np.sum(force * axis, axis=1)).max() < 1e-12 * np.abs(force).max()
+    assert np.abs(normal_part(axis, axis)).max() < 1e-15
