@@ -2,8 +2,8 @@
 
     python viz/mode_shapes.py oc6_phase2 --foundation distributed_springs --mode FA2
 
-Each mode has a page (``/FA1``, ``/SS1``, ...) with links to the others. The pages are served to this
-computer only, until Ctrl-C.
+Each mode has a page (``/FA1``, ``/SS1``, ...) with links to the others. The pages are served to
+this computer only, until Ctrl-C.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ def make_server(pages: ModePages, port: int = 0) -> ThreadingHTTPServer:
     """Server of the pages, bound to 127.0.0.1 and not yet running; port 0 takes a free one."""
 
     class Handler(BaseHTTPRequestHandler):
-        def do_GET(self) -> None:  # noqa: N802 (the name that http.server calls)
+        def do_GET(self) -> None:
             page = pages.page(self.path.partition("?")[0])
             if page is None:
                 self.send_error(HTTPStatus.NOT_FOUND, "No such mode")

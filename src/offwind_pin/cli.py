@@ -194,7 +194,8 @@ class _simulation_progress:  # noqa: N801
         return self._update
 
     def __exit__(self, *_: object) -> None:
-        self._bar.stop()
+        if self._bar.tasks:
+            self._bar.stop()
 
     def _update(self, now: float, duration: float) -> None:
         if not self._bar.tasks:

@@ -110,7 +110,7 @@ def test_lc51_results_file(lc51: tuple[dict[str, Any], Path]) -> None:
     """Channels have units and frames, the attributes say where they come from, the solver converged."""
     summary, out = lc51
     with xr.open_dataset(out / "results.nc") as data:
-        assert data.sizes["time"] == 660 * 20 + 1
+        assert data.sizes["time"] == 660 * 25 + 1
         assert data["section_moment"].attrs["units"] == "N m"
         assert "inertial" in data["section_moment"].attrs["frame"]
         assert data.attrs["wave_seed"] == 1

@@ -37,7 +37,7 @@ class StructuralDamping:
         """
         pairs = np.array([self.factor.get(region, (0.0, 0.0)) for region in chain.region])
         about_z = pairs.mean(axis=1, keepdims=True)
-        return np.asarray(chain.joint_stiffness * np.hstack([pairs, about_z]))
+        return chain.joint_stiffness * np.hstack([pairs, about_z])
 
 
 def calibrate_damping(undamped: System, calibration: DampingCalibration) -> StructuralDamping:
@@ -77,7 +77,7 @@ def _modal_ratios(system: System, result: ModalResult, index: list[int], damping
     """(n,) ratio that joint dampers alone give the chosen modes."""
     rates = result.vector[system.chain.roots :, index]
     omega = 2 * np.pi * result.frequency_hz[index]
-    return np.asarray(np.sum(damping[:, None] * rates**2, axis=0) / (2 * omega))
+    return np.sum(damping[:, None] * rates**2, axis=0) / (2 * omega)
 
 
 def _find(result: ModalResult, label: str) -> int:

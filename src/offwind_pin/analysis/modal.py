@@ -115,7 +115,7 @@ def _participation(system: System, stiffness: Array, vectors: Array) -> Array:
     work = vectors * (stiffness @ vectors)
     kind = np.array([_FAMILY_OF_JOINT[name[-2:]] for name in system.chain.joint_name])
     energy = np.array([work[kind == family].sum(axis=0) for family in FAMILIES]).T
-    return np.asarray(energy / energy.sum(axis=1, keepdims=True))
+    return energy / energy.sum(axis=1, keepdims=True)
 
 
 def _labels(participation: Array) -> tuple[list[str], list[str]]:

@@ -66,7 +66,7 @@ class Overview:
             )
             for member in self.members
         ]
-        x, y, z = self.rna_center_of_mass_m
+        x, y, z = (round(value, 3) + 0.0 for value in self.rna_center_of_mass_m)
         masses.append(
             ("rotor-nacelle", f"{self.rna_mass_kg:,.0f} kg, centre {x:.3f}, {y:.3f}, {z:.3f} m")
         )

@@ -8,7 +8,6 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import xarray as xr
 
 from offwind_pin.analysis.build import build
@@ -25,13 +24,18 @@ from offwind_pin.campaign.case import (
     TransientAnalysis,
 )
 from offwind_pin.campaign.summaries import (
-    Spectrum,
     moment_spectrum,
     summarise_modes,
     summarise_spectrum,
     summarise_static,
 )
-from offwind_pin.display.report import CaseReport, Published, WindReport, write_report
+from offwind_pin.display.report import (
+    CaseReport,
+    MomentSpectrum,
+    Published,
+    WindDescription,
+    write_report,
+)
 from offwind_pin.dynamics.sea import IrregularWaves, Sea, StillWater
 from offwind_pin.dynamics.system import System
 from offwind_pin.errors import InputError, InterruptedSimulation, SolverError
@@ -55,7 +59,7 @@ class CaseResult:
     system: System
     modes: ModalResult | None = None
     statics: dict[str, StaticResult] = field(default_factory=dict)
-    spectrum: Spectrum | None = None
+    spectrum: MomentSpectrum | None = None
 
 
 def run_case(
@@ -104,7 +108,7 @@ def _solve(case: Case, turbine: Turbine, folder: Path, progress: Progress | None
 
 
 def _solve_static(case: Case, turbine: Turbine, analysis: StaticAnalysis) -> CaseResult:
-    names = (case.foundation, analysis.compare_with)
+    names: tuple[str, str] = (case.foundation, analysis.compare_with)
     systems = {
         name: build(turbine, name, _sea(case, 0.0), elements=case.elements) for name in names
     }
@@ -304,12 +308,12 @@ def _write(case: Case, turbine: Turbine, out: Path, result: CaseResult) -> None:
     write_json(out / "summary.json", result.summary)
 
 
-def _wind_report(case: Case, turbine: Turbine) -> WindReport | None:
+def _wind_report(case: Case, turbine: Turbine) -> WindDescription | None:
     load = case.tower_top_load
     if not isinstance(load, SyntheticTowerTopLoad):
         return None
     rotor = operate_rotor(_rotor(turbine), load.wind_speed, load.blade_passing_frequency)
-    return WindReport(_generator(case, load), rotor)
+    return WindDescription(_generator(case, load), rotor)
 
 
 def _write_partial(
@@ -333,8 +337,3 @@ def _turbine(case: Case, folder: Path) -> Turbine:
 def _check_directory(out: Path) -> None:
     if out.exists() and not out.is_dir():
         raise InputError("--out", str(out), "a directory", "Name another place for the results.")
-
-
-def finite(value: float) -> float | None:
-    """A number that JSON can hold, or None."""
-    return float(value) if np.isfinite(value) else None

@@ -8,7 +8,7 @@ import xarray as xr
 
 from offwind_pin.analysis.modal import FAMILIES, ModalResult
 from offwind_pin.analysis.static import StaticResult
-from offwind_pin.display.report import Spectrum
+from offwind_pin.display.report import Band, MomentSpectrum
 from offwind_pin.signal.spectra import band_sum, peaks, power_spectral_density
 
 BANDS_HZ = {"psd_sum_0p2_0p3": (0.2, 0.3), "psd_sum_1p0_1p5": (1.0, 1.5)}
@@ -45,7 +45,7 @@ def summarise_static(state: StaticResult) -> dict[str, Any]:
     }
 
 
-def moment_spectrum(data: xr.Dataset, segment: float, marked: dict[str, float]) -> Spectrum:
+def moment_spectrum(data: xr.Dataset, segment: float, marked: dict[str, float]) -> MomentSpectrum:
     """PSD of the fore-aft moment at the mudline after the ramp.
 
     segment : Welch window in s; marked : frequencies of interest in Hz by name
@@ -55,38 +55,32 @@ def moment_spectrum(data: xr.Dataset, segment: float, marked: dict[str, float]) 
     analysed = time > data.attrs["ramp_s"]
     frequency, density = power_spectral_density(moment[analysed], time[1] - time[0], segment)
     found = peaks(frequency, density, 0.05, 1.6, PEAK_PROMINENCE_DB)
-    near = {name: _nearest_peak(found, at, NEARNESS.get(name, 0.02)) for name, at in marked.items()}
-    return Spectrum(
-        frequency,
-        density,
-        peaks={name: at for name, at in near.items() if at is not None},
-        marked=marked,
-        band_sums={name: band_sum(frequency, density, *band) for name, band in BANDS_HZ.items()},
-        bands=BANDS_HZ,
-        segment=segment,
-    )
+    bands = tuple(Band(*band, band_sum(frequency, density, *band)) for band in BANDS_HZ.values())
+    return MomentSpectrum(frequency, density, tuple(found), bands, marked, segment)
 
 
-def summarise_spectrum(data: xr.Dataset, spectrum: Spectrum) -> dict[str, Any]:
+def summarise_spectrum(data: xr.Dataset, spectrum: MomentSpectrum) -> dict[str, Any]:
     """Mean and standard deviation of the moment, peaks and band sums."""
     moment = data["mudline_moment"].sel(direction="y")
     analysed = moment.where(data["time"] > data.attrs["ramp_s"], drop=True)
-    first, second = spectrum.band_sums.values()
+    near = {name: _nearest_peak(spectrum, name) for name in spectrum.marked}
+    found = {name: at for name, at in near.items() if at is not None}
     return {
         "mudline_moment_y_mean_Nm": float(analysed.mean()),
         "mudline_moment_y_std_Nm": float(analysed.std()),
-        "psd_peaks_hz": sorted(set(spectrum.peaks.values())),
-        "psd_peaks_near_hz": spectrum.peaks,
-        **{f"psd_peak_{name}_hz": at for name, at in spectrum.peaks.items()},
-        **spectrum.band_sums,
-        "psd_sum_ratio": first / second,
+        "psd_peaks_hz": sorted(set(found.values())),
+        "psd_peaks_near_hz": found,
+        **{f"psd_peak_{name}_hz": at for name, at in found.items()},
+        **{name: band.area for name, band in zip(BANDS_HZ, spectrum.bands, strict=True)},
+        "psd_sum_ratio": spectrum.ratio,
         "psd_segment_s": spectrum.segment,
     }
 
 
-def _nearest_peak(found: list[float], at: float, nearness: float) -> float | None:
-    """The peak nearest to a frequency, if one lies within a share of it."""
-    near = [peak for peak in found if abs(peak / at - 1) <= nearness]
+def _nearest_peak(spectrum: MomentSpectrum, name: str) -> float | None:
+    """The peak nearest to a marked frequency, if one lies close enough to it."""
+    at, nearness = spectrum.marked[name], NEARNESS.get(name, 0.02)
+    near = [peak for peak in spectrum.peaks if abs(peak / at - 1) <= nearness]
     return min(near, key=lambda peak: abs(peak - at)) if near else None
 
 

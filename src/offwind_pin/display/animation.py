@@ -15,6 +15,7 @@ from offwind_pin.analysis.modal import ModalResult
 from offwind_pin.display.motion import ModeMotion, mode_motion, plain_name
 from offwind_pin.display.recorder import Recorder, viewer_licence, viewer_script
 from offwind_pin.display.scene import (
+    AXIS_COLOUR,
     COLOUR_MAP,
     CYCLE,
     MUDLINE_COLOUR,
@@ -90,6 +91,7 @@ def _scales(motion: ModeMotion) -> dict[str, str]:
         "gradient": ", ".join(mpl.colors.to_hex(step) for step in steps),
         "water_colour": f"#{WATER_COLOUR:06x}",
         "mudline_colour": f"#{MUDLINE_COLOUR:06x}",
+        "axis_colour": f"#{AXIS_COLOUR:06x}",
         "spring_colour": f"#{SPRING_COLOUR:06x}",
     }
 

@@ -10,16 +10,21 @@ import numpy as np
 
 from offwind_pin.display.plots import FOUNDATION_NAMES
 from offwind_pin.display.wording import (
+    TIMES,
+    count,
     difference,
+    fixed,
     listing,
     mode_name,
     number,
     orders_of_magnitude,
+    quantity,
     relative_difference,
     sentence,
 )
 from offwind_pin.dynamics.sea import IrregularWaves
 from offwind_pin.dynamics.system import System
+from offwind_pin.loads.synthetic_wind import AIR_DENSITY
 from offwind_pin.structure.urdf import definition_hash
 
 if TYPE_CHECKING:
@@ -112,7 +117,7 @@ def cards(report: CaseReport) -> list[Card]:
     chosen = _spectrum_cards(report.psd) + _static_cards(report) + _mode_cards(report)
     if report.histories is not None and "realtime_factor" in report.summary:
         factor = number(float(report.summary["realtime_factor"]), 3)
-        chosen.insert(3, Card(factor, "×", "faster than real time"))
+        chosen.insert(3, Card(factor, TIMES, "simulated time over wall time"))
     return chosen[:4]
 
 
@@ -130,15 +135,16 @@ def _spectrum_sentences(psd: MomentSpectrum | None) -> list[str]:
     if psd is None:
         return []
     said = []
-    strongest = [psd.strongest_peak(band.low, band.high) for band in psd.bands[:2]]
-    found = [f"{peak:.3f} Hz" for peak in strongest if peak is not None]
+    peaks = [psd.peak_in(band)[1] for band in psd.bands[:2]]
+    found = [f"{peak:.3f} Hz" for peak in peaks if peak is not None]
     if found:
         said.append(f"the fore-aft moment at the mudline peaks at {listing(found)}")
     if psd.ratio is not None:
         first, second = psd.bands[:2]
         said.append(
-            f"{first.low:g} to {first.high:g} Hz hold {number(psd.ratio, 3)} times as much of its "
-            f"variance as {second.low:g} to {second.high:g} Hz: {orders_of_magnitude(psd.ratio)}"
+            f"between {first.low:g} and {first.high:g} Hz it has {number(psd.ratio, 3)} times the "
+            f"variance that it has between {second.low:g} and {second.high:g} Hz: "
+            f"{orders_of_magnitude(psd.ratio)}"
         )
     return said
 
@@ -171,9 +177,7 @@ def static_increases(report: CaseReport) -> list[str]:
         word = "further" if change >= 0 else "less far"
         said.append(
             f"on {foundation_name(other)} the tower top leans {abs(change):.1f} % {word} than "
-            f"{foundation_name(name)}: {now:.3f} m along x instead of {before:.3f} m".replace(
-                "-", "−"
-            ).replace("fore−aft", "fore-aft")
+            f"{foundation_name(name)}: {fixed(now, 3)} m along x instead of {fixed(before, 3)} m"
         )
     return said
 
@@ -205,8 +209,8 @@ def _published_sentence(report: CaseReport) -> str:
     _, farthest, ours = max(compared, key=lambda entry: entry[0])
     how = difference(ours, farthest.value, farthest.unit)
     return (
-        f"{close} of {len(compared)} published values are met within {100 * CLOSE:g} %; the farthest "
-        f"is {farthest.quantity}: {how}"
+        f"published values met within {100 * CLOSE:g} %: {close} of {len(compared)}; farthest from "
+        f"its published value is {farthest.quantity}: {how}"
     )
 
 
@@ -214,13 +218,14 @@ def _spectrum_cards(psd: MomentSpectrum | None) -> list[Card]:
     if psd is None:
         return []
     found = []
-    for order, band in zip(("first", "second"), psd.bands, strict=False):
-        peak = psd.strongest_peak(band.low, band.high)
+    for band in psd.bands[:2]:
+        mode, peak = psd.peak_in(band)
         if peak is not None:
-            meaning = f"strongest peak of the mudline moment, {order} band"
-            found.append(Card(f"{peak:.3f}", "Hz", meaning))
+            where = f"by the {mode_name(mode)} mode" if mode else f"in {band.name}"
+            found.append(Card(f"{peak:.3f}", "Hz", f"peak of the mudline moment {where}"))
     if psd.ratio is not None:
-        found.append(Card(number(psd.ratio, 3), "×", "PSD sum, first band over second"))
+        names = " over ".join(band.name for band in psd.bands[:2])
+        found.append(Card(number(psd.ratio, 3), TIMES, f"PSD sum {names}"))
     return found
 
 
@@ -229,7 +234,7 @@ def _static_cards(report: CaseReport) -> list[Card]:
         return []
     found = [
         Card(
-            f"{result.tower_top_displacement[0]:.3f}".replace("-", "−"),
+            fixed(float(result.tower_top_displacement[0]), 3),
             "m",
             f"tower top along x, {foundation_name(name)}",
         )
@@ -238,8 +243,9 @@ def _static_cards(report: CaseReport) -> list[Card]:
     if len(report.statics) == 2:
         first, second = (abs(r.tower_top_displacement[0]) for r in report.statics.values())
         if first > 0:
-            change = f"{100 * (second / first - 1):+.1f}".replace("-", "−")
-            found.append(Card(change, "%", "deflection, second over first"))
+            change = fixed(100 * (second / first - 1), 1, sign=True)
+            where = " over ".join(foundation_name(name) for name in reversed(report.statics))
+            found.append(Card(change, "%", f"deflection, {where}"))
     return found
 
 
@@ -259,17 +265,19 @@ def surrogates(report: CaseReport) -> list[Surrogate]:
     found = []
     soil = report.system.foundation.surrogate
     if soil:
-        remedy = "Put the real p-y curves into a CSV table (depth_m, y_m, p_n_per_m) and name it in "
+        remedy = (
+            "put the real p-y curves into a CSV table (depth_m, y_m, p_n_per_m) and name it in "
+        )
         found.append(Surrogate("The soil", soil, remedy + "the turbine file."))
     attributes = {} if report.histories is None else report.histories.attrs
     loads = str(attributes.get("surrogates", "none")).split(" | ")
-    if report.wind is not None and report.wind.generator.surrogate not in loads:
+    if report.histories is None and report.wind is not None:
         loads.append(report.wind.generator.surrogate)
     found += [
         Surrogate(
             "The load at the tower top",
             sentence(text),
-            "Give the real history as seven columns: t, Fx, Fy, Fz, Mx, My, Mz in s, N and N m.",
+            "give the real history as seven columns: t, Fx, Fy, Fz, Mx, My, Mz in s, N and N m.",
         )
         for text in loads
         if text not in ("none", "", soil)
@@ -298,14 +306,14 @@ def structure_facts(system: System) -> list[tuple[str, str]]:
     facts = [
         ("foundation", foundation_name(system.foundation.name)),
         ("sea", describe_sea(system)),
-        ("height, mudline to yaw bearing", f"{number(chain.top - mudline, 5)} m"),
-        ("water depth", f"{number(turbine.site.water_depth)} m"),
+        ("height, mudline to yaw bearing", quantity(chain.top - mudline, "m", 5)),
+        ("water depth", quantity(turbine.site.water_depth, "m", 3)),
     ]
     if chain.base < mudline:
-        facts.append(("embedded length", f"{number(mudline - chain.base)} m"))
+        facts.append(("embedded length", quantity(mudline - chain.base, "m", 3)))
     facts += [
-        (f"tower and monopile, from the {above}", f"{number(mass / 1e3)} t"),
-        ("rotor-nacelle assembly", f"{number(chain.rna.mass / 1e3)} t"),
+        (f"tower and monopile, from the {above}", quantity(mass / 1e3, "t")),
+        ("rotor-nacelle assembly", quantity(chain.rna.mass / 1e3, "t")),
         ("multibody beam elements", str(chain.elements)),
         ("degrees of freedom", str(system.nv)),
     ]
@@ -333,7 +341,7 @@ def mode_rows(report: CaseReport) -> list[ModeRow]:
     rows = []
     for i, label in enumerate(modes.label):
         ratio = float(modes.shape_peak_height_ratio[i])
-        printed = [f"{row.value:g}" for row in report.published if row.mode == label]
+        printed = [f"{row.value:g}" for row in report.published if _is_frequency_of(row, label)]
         rows.append(
             ModeRow(
                 label,
@@ -348,46 +356,23 @@ def mode_rows(report: CaseReport) -> list[ModeRow]:
     return rows
 
 
-def wind_steps(wind: WindDescription | None) -> list[tuple[str, str]]:
-    """The mean load's derivation, a quantity and its line each."""
+def _is_frequency_of(row: Published, label: str) -> bool:
+    """A published frequency belongs to the mode it names, by label or in the same plain words."""
+    if row.mode is not None:
+        return row.mode == label
+    return row.unit == "Hz" and row.quantity in (label, mode_name(label))
+
+
+def wind_facts(wind: WindDescription | None) -> dict[str, float]:
+    """What the derivation of the mean load needs besides the rotor's own numbers."""
     if wind is None:
-        return []
-    rotor, passing = wind.rotor, wind.generator.blade_passing_frequency
-    blades = round(2 * np.pi * passing / rotor.rotor_speed)
-    return [
-        (
-            "Rotor speed",
-            f"Ω = 2π f₃ₚ / {blades} = 2π · {number(passing, 3)} Hz / {blades} = "
-            f"{number(rotor.rotor_speed)} rad/s ({number(rotor.rotor_speed * 30 / np.pi, 3)} rpm)"
-            if blades == 3
-            else f"Ω = {number(rotor.rotor_speed)} rad/s",
-        ),
-        (
-            "Tip-speed ratio",
-            f"λ = Ω R / U = {number(rotor.rotor_speed)} · {number(rotor.radius)} m / "
-            f"{number(rotor.wind_speed)} m/s = {number(rotor.tip_speed_ratio, 3)}",
-        ),
-        (
-            "Power coefficient",
-            f"Cp = {number(rotor.power_coefficient, 3)}, the best of a rotor with this λ, "
-            f"{blades} blades and a lift-to-drag ratio of 100 (Manwell, McGowan and Rogers, "
-            "Eq. 3.109)",
-        ),
-        (
-            "Induction and thrust",
-            f"Momentum theory gives a = {number(rotor.induction, 3)} and "
-            f"Ct = 4a(1 − a) = {number(rotor.thrust_coefficient, 3)}",
-        ),
-        (
-            "Mean thrust",
-            f"T = Ct · ½ρAU² = {number(rotor.thrust / 1e6)} MN, with ρ = 1.225 kg/m³ and "
-            f"A = {number(rotor.swept_area)} m²",
-        ),
-        (
-            "Mean torque",
-            f"Q = Cp · ½ρAU³ / Ω = {number(rotor.torque / 1e6)} MN m",
-        ),
-    ]
+        return {}
+    passing = 2 * np.pi * wind.generator.blade_passing_frequency
+    return {
+        "blades": round(passing / wind.rotor.rotor_speed),
+        "rotor_speed_rpm": wind.rotor.rotor_speed * 30 / np.pi,
+        "air_density": AIR_DENSITY,
+    }
 
 
 def psd_rows(psd: MomentSpectrum | None) -> list[tuple[str, float, float | None]]:
@@ -418,12 +403,15 @@ def solver_account(report: CaseReport) -> list[tuple[str, str]]:
         time, taken = data.time.values, data.solver_iterations.values[1:]
         rows += [
             ("status", str(data.attrs.get("status", "unknown"))),
-            ("simulated time", f"{number(float(time[-1]))} s"),
-            ("time steps", number(round(float(time[-1]) / float(data.attrs["dt_s"])), 7)),
+            ("simulated time", quantity(float(time[-1]), "s")),
+            ("time steps", count(round(float(time[-1]) / float(data.attrs["dt_s"])))),
         ]
         if len(taken):
             rows.append(
-                ("Newton iterations a step", f"{taken.mean():.2f} on average, {taken.max()} at most")
+                (
+                    "Newton iterations a step",
+                    f"{taken.mean():.2f} on average, {taken.max()} at most",
+                )
             )
             worst = float(data.solver_residual.max())
             tolerance = float(data.attrs["residual_tolerance"])
@@ -441,7 +429,7 @@ def solver_account(report: CaseReport) -> list[tuple[str, str]]:
         for name, state in report.statics.items()
     ]
     if "wall_s" in summary:
-        rows.append(("wall time", f"{number(float(summary['wall_s']), 3)} s"))
+        rows.append(("wall time", quantity(float(summary["wall_s"]), "s", 3)))
     if data is not None and "realtime_factor" in summary:
         factor = number(float(summary["realtime_factor"]), 3)
         rows.append(("real-time factor", f"{factor} (simulated over wall time)"))

@@ -5,7 +5,6 @@ Every function returns a ``matplotlib.figure.Figure`` and leaves matplotlib's se
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -32,6 +31,7 @@ from offwind_pin.display.style import (
     styled,
     thin,
 )
+from offwind_pin.display.wording import DASH, fixed, is_mode
 from offwind_pin.loads.soil import SoilSprings
 from offwind_pin.turbines.definition import Array
 
@@ -82,7 +82,7 @@ def mode_shapes(modes: ModalResult, mudline: float, *, water: bool = True) -> Fi
         _shapes_of_family(axes, modes, members[:_MODES_PER_FAMILY], _SHOWN_COMPONENT[family])
         axes.set_title(FAMILIES[family].capitalize(), pad=8)
         what = "rotation about z" if family == "T" else "displacement"
-        axes.set_xlabel(f"{what} / its peak, –")
+        axes.set_xlabel(f"{what} / its peak")
         axes.set_xlim(-1.12, 1.12)
         axes.set_ylim(modes.height[0], modes.height[-1] * 1.03)
     for axes in panels:
@@ -153,7 +153,7 @@ def _tower_top_labels(axes: Axes, results: Mapping[str, StaticResult]) -> None:
     top = next(iter(results.values())).height[-1]
     for color, end, place in zip(PALETTE, ends, places, strict=False):
         axes.annotate(
-            f"{end:+.3f} m".replace("-", "−"),
+            f"{fixed(end, 3, sign=True)} m",
             (end, top),
             xytext=(place, top + 9),
             ha="center",
@@ -286,7 +286,7 @@ def moment_psd(
     for start, end in bands:
         axes.axvspan(start, end, color=_BAND, lw=0, zorder=0).set_gid("band")
         axes.annotate(
-            f"{start:g}–{end:g} Hz",
+            f"{start:g}{DASH}{end:g} Hz",
             ((start + end) / 2, 0),
             xycoords=("data", "axes fraction"),
             xytext=(0, 4),
@@ -304,12 +304,12 @@ def moment_psd(
 
 
 def _mark_frequencies(axes: Axes, marked: Mapping[str, float], highest: float) -> None:
-    """A dashed line at each frequency, its name above the frame, led there where names are close."""
+    """A dashed line at each frequency, its name above the frame and apart from the others."""
     names = sorted(marked, key=lambda name: marked[name])
     places = spread([marked[name] for name in names], 0.068 * highest)
     for name, place in zip(names, places, strict=True):
         value = marked[name]
-        color = VERMILLION if re.fullmatch(r"(FA|SS|T|V)\d+", name) else BLUE
+        color = VERMILLION if is_mode(name) else BLUE
         axes.axvline(value, color=color, lw=1, ls=(0, (4, 2)), zorder=3, gid=f"mark {name}")
         axes.plot(
             [value, place],
@@ -357,7 +357,7 @@ def section_load_envelope(histories: xr.Dataset) -> Figure:
         axes.set_title(title)
         axes.set_xlabel(label)
         axes.grid(axis="x")
-        axes.legend(loc="upper right")
+    panels[0].legend(loc="best")
     for axes in panels:
         mark_levels(axes, mudline, water=histories.attrs.get("sea") != "dry")
     panels[0].set_ylabel(_HEIGHT_LABEL)

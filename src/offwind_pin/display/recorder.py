@@ -22,6 +22,7 @@ with warnings.catch_warnings():
 
 __all__ = [
     "Recorder",
+    "meshcat",
     "meshcat_animation",
     "meshcat_geometry",
     "viewer_licence",

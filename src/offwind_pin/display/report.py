@@ -21,7 +21,7 @@ from offwind_pin.analysis.modal import ModalResult
 from offwind_pin.analysis.static import StaticResult
 from offwind_pin.display import findings, plots
 from offwind_pin.display.style import to_svg
-from offwind_pin.display.wording import as_given, difference, mode_name, number
+from offwind_pin.display.wording import DASH, as_given, difference, is_mode, mode_name, number
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.synthetic_wind import RotorOperation, SyntheticWind
 from offwind_pin.results.files import write_text
@@ -52,10 +52,11 @@ class Published:
     Attributes
     ----------
     quantity : in plain words
-    value, unit : published; the unit may be empty
+    value, unit : published; the unit is empty for a pure number
     source : where it is printed
     ours : the same quantity from this case, or None where it was not computed
-    mode : label of the mode whose frequency it is; shown in the table of modes as well
+    mode : label of the mode whose frequency it is, for the table of modes; a quantity in Hz named
+        like a mode ("FA1" or "first fore-aft") is put there without it
     """
 
     quantity: str
@@ -81,6 +82,10 @@ class Band:
     low: float
     high: float
     area: float
+
+    @property
+    def name(self) -> str:
+        return f"{self.low:g}{DASH}{self.high:g} Hz"
 
 
 @dataclass(frozen=True)
@@ -118,12 +123,20 @@ class MomentSpectrum:
             inside, key=lambda f: float(np.interp(f, self.frequency, self.density)), default=None
         )
 
-    def nearest_peak(self, frequency: float) -> float | None:
-        """The peak found within four lines of the spectrum of a frequency, or None."""
+    def nearest_peak(self, frequency: float, nearness: float = 0.02) -> float | None:
+        """The peak found within a share of a frequency in Hz that is nearest to it, or None."""
         near = min(self.peaks, key=lambda peak: abs(peak - frequency), default=None)
-        if near is None or abs(near - frequency) > 4 * (self.frequency[1] - self.frequency[0]):
+        if near is None or abs(near - frequency) > nearness * frequency:
             return None
         return near
+
+    def peak_in(self, band: Band) -> tuple[str | None, float | None]:
+        """Label of a marked mode in a band and the peak next to it; else None and the strongest."""
+        for name, frequency in self.marked.items():
+            peak = self.nearest_peak(frequency)
+            if is_mode(name) and peak is not None and band.low <= peak <= band.high:
+                return name, peak
+        return None, self.strongest_peak(band.low, band.high)
 
 
 @dataclass(frozen=True)
@@ -173,14 +186,18 @@ def write_report(path: Path, report: CaseReport) -> None:
 def render_report(report: CaseReport) -> str:
     """The HTML text of a report."""
     shown = _tables(report)
-    return _environment().get_template("report.html.j2").render(
-        report=report,
-        headline=findings.headline(report),
-        cards=findings.cards(report),
-        shown=shown,
-        figures={name: Markup(to_svg(drawn, name)) for name, drawn in _figures(report).items()},  # noqa: S704
-        titles=SECTIONS,
-        contents={name: title for name, title in SECTIONS.items() if shown.get(name)},
+    return (
+        _environment()
+        .get_template("report.html.j2")
+        .render(
+            report=report,
+            headline=findings.headline(report),
+            cards=findings.cards(report),
+            shown=shown,
+            figures={name: Markup(to_svg(drawn, name)) for name, drawn in _figures(report).items()},  # noqa: S704
+            titles=SECTIONS,
+            contents={name: title for name, title in SECTIONS.items() if shown.get(name)},
+        )
     )
 
 
@@ -206,7 +223,7 @@ def _tables(report: CaseReport) -> dict[str, Any]:
         "modes": findings.mode_rows(report),
         "statics": report.statics,
         "increases": findings.static_increases(report),
-        "wind": findings.wind_steps(report.wind),
+        "wind": findings.wind_facts(report.wind),
         "histories": report.histories is not None,
         "psd": report.psd,
         "psd_rows": findings.psd_rows(report.psd),

@@ -8,7 +8,7 @@ import matplotlib as mpl
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from offwind_pin.display.meshes import Mesh, box, disc, hollow_frustum, loft
+from offwind_pin.display.meshes import Mesh, box, circle, disc, hollow_frustum, loft
 from offwind_pin.display.motion import FRAMES, ModeMotion
 from offwind_pin.display.recorder import meshcat_animation, meshcat_geometry
 from offwind_pin.display.rotor import rna_meshes
@@ -23,6 +23,7 @@ CYCLE = 4.0
 """Seconds that one cycle takes on the screen."""
 
 MUDLINE_COLOUR, WATER_COLOUR, SPRING_COLOUR = 0xA07C4B, 0x3D8FD1, 0x46505A
+AXIS_COLOUR = 0x9AA5B1
 _RNA_COLOUR, _BLOCK_COLOUR, _STRIPE_COLOUR = 0xE9ECEF, 0x5A5F66, 0x20242A
 _MOTION_PLANE = {"SS": np.array([0.0, 1.0, 0.0])}
 _ALONG_X = np.array([1.0, 0.0, 0.0])
@@ -81,12 +82,15 @@ def body_meshes(system: System) -> dict[str, Mesh]:
 
 
 def draw_site(view: Any, system: System) -> None:
-    """Mudline and still-water level as translucent discs; a block where the base is clamped."""
+    """Mudline and still water as translucent discs, the axis at rest, a block where it is clamped."""
     chain, mudline = system.chain, system.turbine.site.mudline
     height = chain.top - chain.base
     radius = 0.3 * height
     _set_mesh(view["site"]["mudline"], disc(radius, mudline), MUDLINE_COLOUR, opacity=0.42)
     _set_mesh(view["site"]["still_water"], disc(radius, 0.0), WATER_COLOUR, opacity=0.26)
+    thin = 0.0014 * height
+    axis = loft(np.array([circle(thin, chain.base), circle(thin, chain.top)]))
+    _set_mesh(view["site"]["axis_at_rest"], axis, AXIS_COLOUR)
     if system.foundation.root is None:
         half, deep = 0.045 * height, 0.035 * height
         block = box([-half, -half, chain.base - deep], [half, half, chain.base])

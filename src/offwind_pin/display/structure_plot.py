@@ -18,6 +18,7 @@ from offwind_pin.display.style import (
     spread,
     styled,
 )
+from offwind_pin.display.wording import TIMES, fixed
 from offwind_pin.dynamics.sea import IrregularWaves
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.soil import SoilSprings
@@ -25,7 +26,7 @@ from offwind_pin.structure.section import outer_diameter
 from offwind_pin.turbines.definition import Array, Member, RotorNacelleRNA
 from offwind_pin.turbines.rna import rotor_apex, rotor_radius
 
-_SIDES = (-36.0, 60.0)
+_SIDES = (-44.0, 60.0)
 """m shown on the windward side, and on the lee side where the labels stand."""
 
 _SHOWN_BLADE = 20.0
@@ -225,7 +226,7 @@ def _mudline_springs(axes: Axes, mudline: float, radius: float) -> None:
         size * np.cos(angle), mudline - 4.2 + size * np.sin(angle), color=GREEN, lw=1.3, zorder=5
     )
     axes.annotate(
-        "6×6 stiffness at the mudline",
+        f"6{TIMES}6 stiffness at the mudline",
         (radius, mudline - 5.2),
         va="center",
         fontsize=9,
@@ -284,4 +285,4 @@ def _diameter(system: System, height: float) -> float:
 
 
 def _signed(value: float) -> str:
-    return f"{value:+.2f}".replace("-", "−")
+    return fixed(value, 2, sign=True)

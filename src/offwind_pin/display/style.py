@@ -28,7 +28,7 @@ MUTED, SOIL, WATER, STEEL = "#5d6573", "#efe6d6", "#e3f0f9", "#c9cfd6"
 FULL_WIDTH = 9.6
 """Inches; a figure that fills the text column of the report."""
 
-_STYLE: dict[str, Any] = {
+_STYLE: Any = {
     "axes.edgecolor": MUTED,
     "axes.labelcolor": INK,
     "axes.labelsize": 9.5,

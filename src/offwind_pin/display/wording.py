@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
+import re
 
 from offwind_pin.analysis.modal import FAMILIES
 
 _ORDINALS = ("", "first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth")
 _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+MINUS, DASH, TIMES = "\u2212", "\u2013", "\u00d7"
 _THIN_SPACE = "\u202f"
+_NO_BREAK = "\u00a0"
 _ROUNDING = 5e-4
 
 
@@ -18,7 +21,7 @@ def number(value: float, significant: int = 4) -> str:
     Very large and very small ones as a mantissa and a power of ten.
     """
     if not math.isfinite(value):
-        return "not a number" if math.isnan(value) else ("∞" if value > 0 else "−∞")
+        return "not a number" if math.isnan(value) else ("∞" if value > 0 else f"{MINUS}∞")
     if value == 0:
         return "0"
     mantissa, exponent = f"{value:.{significant - 1}e}".split("e")
@@ -26,13 +29,28 @@ def number(value: float, significant: int = 4) -> str:
     if -4 <= power < 7:
         text = f"{value:,.{max(0, significant - 1 - power)}f}".replace(",", _THIN_SPACE)
     else:
-        text = f"{mantissa} × 10{str(power).translate(_SUPERSCRIPT)}"
-    return text.replace("-", "−")
+        text = f"{mantissa}{_NO_BREAK}{TIMES}{_NO_BREAK}10{str(power).translate(_SUPERSCRIPT)}"
+    return text.replace("-", MINUS)
+
+
+def fixed(value: float, decimals: int, *, sign: bool = False) -> str:
+    """A number with decimals, a true minus sign, and a plus sign if asked for."""
+    return f"{value:{'+' if sign else ''}.{decimals}f}".replace("-", MINUS)
+
+
+def count(value: int) -> str:
+    """A whole number with spaces between thousands."""
+    return f"{value:,}".replace(",", _THIN_SPACE).replace("-", MINUS)
+
+
+def quantity(value: float, unit: str, significant: int = 4) -> str:
+    """A number that stays on one line with its unit."""
+    return f"{number(value, significant)}{_NO_BREAK}{unit}"
 
 
 def as_given(value: float) -> str:
     """A number with the digits it was given, such as a published one."""
-    return f"{value:.10g}".replace("-", "−")
+    return f"{value:.10g}".replace("-", MINUS)
 
 
 def mode_name(label: str) -> str:
@@ -42,6 +60,11 @@ def mode_name(label: str) -> str:
     if family not in FAMILIES or not 0 < order < len(_ORDINALS):
         return label
     return f"{_ORDINALS[order]} {FAMILIES[family]}"
+
+
+def is_mode(name: str) -> bool:
+    """Whether a name is a mode's label."""
+    return re.fullmatch(rf"({'|'.join(FAMILIES)})[1-9]\d*", name) is not None
 
 
 def relative_difference(ours: float, reference: float) -> float | None:
@@ -67,7 +90,7 @@ def difference(ours: float, reference: float, unit: str) -> str:
 
 def orders_of_magnitude(ratio: float) -> str:
     """``"2.1 orders of magnitude"``."""
-    return f"{math.log10(ratio):.1f} orders of magnitude".replace("-", "−")
+    return f"{math.log10(ratio):.1f} orders of magnitude".replace("-", MINUS)
 
 
 def listing(items: list[str]) -> str:

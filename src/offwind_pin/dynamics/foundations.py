@@ -39,7 +39,7 @@ class LinearRestraint:
     damping: Array
 
     def reaction(self, displacement: Array, velocity: Array) -> Array:
-        return np.asarray(self.stiffness @ displacement + self.damping @ velocity)
+        return self.stiffness @ displacement + self.damping @ velocity
 
     def tangents(self, displacement: Array, velocity: Array) -> tuple[Array, Array]:
         return self.stiffness, self.damping

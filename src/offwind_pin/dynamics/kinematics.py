@@ -133,7 +133,7 @@ class ChainMotion:
             ],
             axis=1,
         )
-        return np.asarray(moved + np.tril(turned @ self.jacobian, -1))
+        return moved + np.tril(turned @ self.jacobian, -1)
 
     def _wrench_above(
         self, points: AxisPoints, position: Array, force: Array, moment: Array
@@ -153,7 +153,7 @@ class ChainMotion:
         at_joint = above[self.dof_body]
         row = np.einsum("ij,jik->jk", self.jacobian, at_joint) @ self.jacobian
         column = self.jacobian.T @ np.einsum("jik,kj->ij", at_joint, self.jacobian)
-        return np.asarray(np.tril(row) + np.triu(column, 1))
+        return np.tril(row) + np.triu(column, 1)
 
 
 def dof_body(chain: Chain) -> NDArrayInt:
@@ -186,4 +186,4 @@ def _at_origin(position: Array, blocks: Array) -> Array:
     reach = np.zeros((len(position), 3, 6))
     reach[:, :, :3] = np.eye(3)
     reach[:, :, 3:] = -skew(position)
-    return np.asarray(reach.transpose(0, 2, 1) @ blocks @ reach)
+    return reach.transpose(0, 2, 1) @ blocks @ reach

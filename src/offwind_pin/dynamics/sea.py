@@ -18,7 +18,10 @@ class StillWater:
     """Water at rest: added mass, and drag on a structure that moves."""
 
     def realise(self, turbine: Turbine) -> IrregularSea:
-        return IrregularSea(*np.zeros((3, 0)), turbine.site.water_depth, turbine.site.gravity)
+        nothing = np.zeros(0)
+        return IrregularSea(
+            nothing, nothing, nothing, turbine.site.water_depth, turbine.site.gravity
+        )
 
 
 @dataclass(frozen=True)

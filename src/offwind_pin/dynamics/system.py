@@ -101,7 +101,7 @@ class Equations:
         self.points = AxisPoints.on(system.chain, np.concatenate(heights))
         edges = np.cumsum([0, *(len(h) for h in heights)])
         self._wet = slice(0, int(edges[1]))
-        self._parts = [slice(int(a), int(b)) for a, b in itertools.pairwise(edges)]
+        self._parts = [slice(int(a), int(b)) for a, b in itertools.pairwise(edges[1:])]
 
     def residual(self, time: float, q: Array, v: Array, a: Array) -> Array:
         """(nv,) generalised forces out of balance, in N and N m."""
@@ -117,7 +117,7 @@ class Equations:
         points = motion.points(wet)
         projector = np.eye(3) - np.einsum("ni,nj->nij", points.axis, points.axis)
         blocks = self.water.mass[:, None, None] * projector
-        return np.asarray(mass + motion.congruence(wet, points.position, blocks))
+        return mass + motion.congruence(wet, points.position, blocks)
 
     def tangents(self, time: float, q: Array, v: Array) -> tuple[Array, Array]:
         """Stiffness dr/dq and damping dr/dv, both (nv, nv), at zero acceleration.
@@ -208,7 +208,7 @@ class Equations:
         )
         if self.system.foundation.root is not None:
             balance[:6] += self.system.foundation.root.reaction(q[:6], v[:6])
-        return np.asarray(balance)
+        return balance
 
     def _each_load(self) -> zip[tuple[PointLoad, slice]]:
         return zip(self.loads, self._parts, strict=True)

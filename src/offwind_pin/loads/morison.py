@@ -91,7 +91,7 @@ class MorisonForce:
 
     def _drag(self) -> Array:
         area = self.strips.diameter * self.strips.length
-        return np.asarray(0.5 * self.density * self.drag_coefficient * area)
+        return 0.5 * self.density * self.drag_coefficient * area
 
     def _water(self, time: float, rise: float) -> tuple[Array, Array]:
         velocity, acceleration = self.kinematics.at(time)
@@ -100,9 +100,9 @@ class MorisonForce:
 
 def displaced_volume(strips: Strips) -> Array:
     """(n,) volume of each strip in m3."""
-    return np.asarray(np.pi / 4 * strips.diameter**2 * strips.length)
+    return np.pi / 4 * strips.diameter**2 * strips.length
 
 
 def normal_part(vector: Array, axis: Array) -> Array:
     """Part of vectors (n, 3) normal to unit vectors (n, 3)."""
-    return np.asarray(vector - np.einsum("ni,ni->n", vector, axis)[:, None] * axis)
+    return vector - np.einsum("ni,ni->n", vector, axis)[:, None] * axis

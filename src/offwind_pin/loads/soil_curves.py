@@ -66,15 +66,15 @@ class TanhCurves:
     ultimate_resistance: Array
 
     def resistance(self, y: Array) -> Array:
-        return np.asarray(self.ultimate_resistance * np.tanh(self._argument(y)))
+        return self.ultimate_resistance * np.tanh(self._argument(y))
 
     def tangent(self, y: Array) -> Array:
-        return np.asarray(self.initial_modulus / np.cosh(np.minimum(self._argument(y), 300.0)) ** 2)
+        return self.initial_modulus / np.cosh(np.minimum(self._argument(y), 300.0)) ** 2
 
     def secant(self, y: Array) -> Array:
         x = self._argument(y)
         ratio = np.divide(np.tanh(x), x, out=1 - x**2 / 3, where=x > 1e-6)
-        return np.asarray(self.initial_modulus * ratio)
+        return self.initial_modulus * ratio
 
     def _argument(self, y: Array) -> Array:
         strong = self.ultimate_resistance > 0
@@ -111,9 +111,7 @@ class TabulatedCurves:
     def resistance(self, y: Array) -> Array:
         segment, slope = self._segment(y)
         rows = np.arange(len(y))
-        return np.asarray(
-            self.load[rows, segment] + slope * np.maximum(y - self.displacement[segment], 0.0)
-        )
+        return self.load[rows, segment] + slope * np.maximum(y - self.displacement[segment], 0.0)
 
     def tangent(self, y: Array) -> Array:
         return self._segment(y)[1]

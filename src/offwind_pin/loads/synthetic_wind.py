@@ -154,7 +154,9 @@ class SyntheticWind:
         samples = np.arange(round(duration / dt) + 1)
         steady = steady_load(rna, rotor)
         load = steady * (1 + ratio[samples % count, None])
-        return LoadHistory(samples * dt, load, origin=self._describe(), surrogate=self.surrogate)
+        return LoadHistory(
+            samples.astype(np.float64) * dt, load, origin=self._describe(), surrogate=self.surrogate
+        )
 
     def _rotor_wind_spectrum(self, frequency: Array, rotor: RotorOperation) -> Array:
         """One-sided spectrum of the rotor-averaged wind in (m/s)^2/Hz."""
@@ -162,7 +164,7 @@ class SyntheticWind:
         reduced = KAIMAL_LENGTH / self.wind_speed
         kaimal = sigma**2 * 4 * reduced / (1 + 6 * frequency * reduced) ** (5 / 3)
         size = 2 * frequency * np.sqrt(rotor.swept_area) / self.wind_speed
-        return np.asarray(kaimal / (1 + size ** (4 / 3)) ** 2)
+        return kaimal / (1 + size ** (4 / 3)) ** 2
 
     def _describe(self) -> str:
         return f"synthetic wind load, {self.wind_speed} m/s, seed {self.seed}"

@@ -34,16 +34,16 @@ class LoadHistory:
         """(6,) time average of the linearly interpolated history between two times."""
         inside = self.time[(self.time > start) & (self.time < end)]
         nodes = np.concatenate([[start], inside, [end]])
-        return np.asarray(np.trapezoid(self.at(nodes), nodes, axis=0) / (end - start))
+        return np.trapezoid(self.at(nodes), nodes, axis=0) / (end - start)
 
     def at(self, time: Array | float) -> Array:
         """(t, 6) load, or (6,) at a single time, by linear interpolation; its ends hold beyond."""
         if len(self.time) == 1:
-            return np.asarray(self.load[np.zeros(np.shape(time), dtype=np.intp)])
+            return self.load[np.zeros(np.shape(time), dtype=np.intp)]
         upper = np.clip(np.searchsorted(self.time, time), 1, len(self.time) - 1)
         start, end = self.time[upper - 1], self.time[upper]
         share = np.clip((np.asarray(time) - start) / (end - start), 0.0, 1.0)[..., None]
-        return np.asarray((1 - share) * self.load[upper - 1] + share * self.load[upper])
+        return (1 - share) * self.load[upper - 1] + share * self.load[upper]
 
 
 @dataclass(frozen=True)
@@ -65,7 +65,7 @@ class TowerTopLoad:
 
     def load(self, time: float, rise: float = 1.0) -> Array:
         """(6,) applied load at one time."""
-        return np.asarray(self.mean + rise * (self.history.at(time) - self.mean))
+        return self.mean + rise * (self.history.at(time) - self.mean)
 
     def forces(self, time: float, motion: PointMotion, rise: float) -> PointForces:
         load = self.load(time, rise)

@@ -28,7 +28,7 @@ def wave_number(angular_frequency: Array, depth: float, gravity: float) -> Array
             break
     else:
         raise RuntimeError("the dispersion relation did not converge")
-    return np.asarray(kh / depth)
+    return kh / depth
 
 
 def pierson_moskowitz(frequency: Array, significant_height: float, peak_period: float) -> Array:
@@ -37,9 +37,7 @@ def pierson_moskowitz(frequency: Array, significant_height: float, peak_period: 
     frequency in Hz (positive), significant height in m, peak period in s; its area is Hs^2 / 16.
     """
     ratio = 1 / (frequency * peak_period)
-    return np.asarray(
-        5 / 16 * significant_height**2 / frequency * ratio**4 * np.exp(-1.25 * ratio**4)
-    )
+    return 5 / 16 * significant_height**2 / frequency * ratio**4 * np.exp(-1.25 * ratio**4)
 
 
 @dataclass(frozen=True)
@@ -94,7 +92,7 @@ class IrregularSea:
     def elevation(self, time: Array) -> Array:
         """Surface elevation at x = 0 in m, (t,)."""
         angle = 2 * np.pi * np.outer(time, self.frequency) - self.phase
-        return np.asarray(np.cos(angle) @ self.amplitude)
+        return np.cos(angle) @ self.amplitude
 
     def kinematics_at(self, height: Array) -> WaveKinematics:
         """Kinematics at fixed heights z <= 0 on the axis x = 0."""

@@ -24,7 +24,7 @@ def make_dataset(
     section_load: Array,
     tower_top_load: Array,
     wave_elevation: Array,
-    iterations: Array,
+    iterations: NDArray[np.int32],
     residual: Array,
     mudline: float,
     attributes: dict[str, Any],

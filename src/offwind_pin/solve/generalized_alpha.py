@@ -96,7 +96,9 @@ class GeneralizedAlpha:
         beta = 0.25 * (gamma + 0.5) ** 2
         by_a = (1 - alpha_m) / (h**2 * beta * (1 - alpha_f))
         by_v = gamma / (h * beta)
-        a = -np.linalg.solve(system.mass(q), system.residual(0.0, q, v, np.zeros_like(q)))
+        a: Array = -lu_solve(
+            lu_factor(system.mass(q)), system.residual(0.0, q, v, np.zeros_like(q))
+        )
         blended = a.copy()
         start = system.residual(0.0, q, v, a)
         yield Step(0, 0.0, q, v, a, 0, float(np.max(np.abs(start))) / scale)

@@ -114,7 +114,9 @@ def build_chain(
     """
     spans = _regions(turbine, base)
     counts = _element_counts(spans, elements)
-    boundary, region, names = [base], [], []
+    boundary: list[float] = [base]
+    region: list[str] = []
+    names: list[str] = []
     for (name, low, high), count in zip(spans, counts, strict=True):
         boundary.extend(np.linspace(low, high, count + 1)[1:])
         region.extend([name] * count)

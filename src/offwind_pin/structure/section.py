@@ -45,10 +45,12 @@ def frusta(turbine: Turbine, low: float, high: float) -> list[tuple[float, Frust
     result = []
     for bottom, top, member in pieces(turbine, low, high):
         diameter, thickness = diameter_and_thickness(member, np.array([bottom, top]))
-        outer = diameter / 2
-        inner = outer - thickness
+        outer = (diameter / 2).tolist()
+        inner = (diameter / 2 - thickness).tolist()
         density = turbine.materials[member.material].density
-        result.append((bottom, Frustum(top - bottom, *outer, *inner, density)))
+        result.append(
+            (bottom, Frustum(top - bottom, outer[0], outer[1], inner[0], inner[1], density))
+        )
     return result
 
 
@@ -69,13 +71,13 @@ def bending_stiffness(member: Member, material: Material, z: Array) -> Array:
     """EI in N m2 at heights z."""
     outer, thickness = diameter_and_thickness(member, z)
     inner = outer - 2 * thickness
-    return np.asarray(material.youngs_modulus * np.pi / 64 * (outer**4 - inner**4))
+    return material.youngs_modulus * np.pi / 64 * (outer**4 - inner**4)
 
 
 def torsional_stiffness(member: Member, material: Material, z: Array) -> Array:
     """GJ in N m2 at heights z."""
     ratio = 2 * material.shear_modulus / material.youngs_modulus
-    return np.asarray(ratio * bending_stiffness(member, material, z))
+    return ratio * bending_stiffness(member, material, z)
 
 
 def flexibility(turbine: Turbine, low: float, high: float) -> tuple[float, float]:

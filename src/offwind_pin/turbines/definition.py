@@ -227,7 +227,7 @@ class DepthLine(Definition):
 
     def at(self, depth: Array) -> Array:
         """Value at depths below the mudline in m."""
-        return np.asarray(self.at_mudline + self.gradient * depth)
+        return self.at_mudline + self.gradient * depth
 
 
 class LinearModulus(Definition):

@@ -14,6 +14,7 @@ from offwind_pin.errors import InputError
 from offwind_pin.turbines.definition import CurveTable, Turbine
 
 Model = TypeVar("Model", bound=BaseModel)
+Schema = dict[str, Any]
 
 
 def shipped_turbines() -> list[str]:
@@ -128,10 +129,10 @@ def _input_error(
     more = f" ({len(found) - 1} more in this file.)" if len(found) > 1 else ""
     where = f"{path}, field {field}"
     if first["type"] == "extra_forbidden":
-        known = _known_names(model)
+        known = _known_keys(model, location[:-1])
         near = difflib.get_close_matches(str(location[-1]), known, n=1, cutoff=0.5)
         remedy = f"Did you mean {near[0]!r}?" if near else "Remove it."
-        return InputError(where, "an unknown key", "the documented keys", remedy + more)
+        return InputError(where, "an unknown key", ", ".join(known), remedy + more)
     if first["type"] == "missing":
         return InputError(where, "nothing", "a value (the field is required)", "Add it." + more)
     message = first["msg"].removeprefix("Value error, ")
@@ -154,11 +155,40 @@ def _without_union_tags(location: tuple[int | str, ...], data: object) -> tuple[
     return tuple(kept)
 
 
-def _known_names(model: type[BaseModel]) -> list[str]:
-    """Every key that the model and the models below it accept."""
+def _known_keys(model: type[BaseModel], location: tuple[int | str, ...]) -> list[str]:
+    """Keys that are accepted at a place of a definition; of a union, those of every member."""
     schema = model.model_json_schema(by_alias=True)
-    parts = [schema, *schema.get("$defs", {}).values()]
-    return sorted({name for part in parts for name in part.get("properties", {})})
+    nodes = [schema]
+    for part in location:
+        nodes = [below for node in nodes for below in _below(schema, node, part)]
+    return sorted(
+        {
+            name
+            for node in nodes
+            for choice in _choices(schema, node)
+            for name in choice["properties"]
+        }
+    )
+
+
+def _below(schema: Schema, node: Schema, part: int | str) -> list[Schema]:
+    """The schemas of an item or a key."""
+    if isinstance(part, int):
+        return [choice["items"] for choice in _choices(schema, node, "items")]
+    return [
+        choice["properties"][part]
+        for choice in _choices(schema, node)
+        if part in choice["properties"]
+    ]
+
+
+def _choices(schema: Schema, node: Schema, having: str = "properties") -> list[Schema]:
+    """A schema with its references and unions resolved, those alternatives that have a key."""
+    if "$ref" in node:
+        return _choices(schema, schema["$defs"][node["$ref"].rsplit("/", 1)[-1]], having)
+    alternatives = node.get("anyOf", []) + node.get("oneOf", [])
+    found = [choice for below in alternatives for choice in _choices(schema, below, having)]
+    return [*found, node] if having in node else found
 
 
 def _with_absolute_paths(turbine: Turbine, folder: Path) -> Turbine:

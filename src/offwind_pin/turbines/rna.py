@@ -34,7 +34,7 @@ class RigidBody:
 
 def point_inertia(mass: float, offset: Array) -> Array:
     """Inertia (3, 3) of a point mass at an offset: m (r.r I - r r')."""
-    return np.asarray(mass * (offset @ offset * np.eye(3) - np.outer(offset, offset)))
+    return mass * (offset @ offset * np.eye(3) - np.outer(offset, offset))
 
 
 def lump_rna(rna: RigidBodyRNA | RotorNacelleRNA) -> RigidBody:

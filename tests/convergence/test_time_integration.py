@@ -1,0 +1,151 @@
+"""Generalised-alpha on small systems: order, agreement with Radau, energy, failure."""
+
+from itertools import islice
+
+import numpy as np
+import pytest
+from helpers.numerics import fitted_order
+from helpers.oscillators import Array, ElasticPendulum, Oscillator
+from scipy.integrate import solve_ivp
+
+from offwind_pin.solve.generalized_alpha import (
+    GeneralizedAlpha,
+    SecondOrderSystem,
+    Step,
+    StepFailed,
+)
+
+RADII = [0.0, 0.5, 0.9, 1.0]
+
+
+def integrate(
+    system: SecondOrderSystem, q: Array, v: Array, *, dt: float, end: float, radius: float
+) -> list[Step]:
+    """All steps, converged to rounding."""
+    method = GeneralizedAlpha(dt, radius, relative_tolerance=1e-13, increment_tolerance=1e-11)
+    return list(method.steps(system, q, v, count=round(end / dt), scale=10.0))
+
+
+@pytest.mark.parametrize("radius", RADII)
+def test_order_two_on_an_oscillator(radius: float) -> None:
+    """Displacement and velocity of a damped, driven oscillator, at every numerical damping."""
+    system, steps, end = Oscillator(), np.array([0.08, 0.04, 0.02, 0.01]), 8.0
+    errors = []
+    for dt in steps:
+        path = integrate(
+            system, np.array([0.3]), np.array([-0.5]), dt=float(dt), end=end, radius=radius
+        )
+        time = np.array([step.time for step in path])
+        q, v, _ = system.exact(time, 0.3, -0.5)
+        found = np.array([[step.q[0], step.v[0]] for step in path])
+        errors.append(np.abs(found - np.column_stack([q, v])).max(axis=0))
+    for column in np.array(errors).T:
+        assert fitted_order(steps, column) == pytest.approx(2.0, abs=0.1)
+
+
+def test_acceleration_meets_the_equations_of_motion() -> None:
+    """The reported acceleration is the true one of each step's end: the residual vanishes with it."""
+    system = Oscillator()
+    path = integrate(
+        system, np.array([0.3]), np.array([-0.5]), dt=0.05, end=5.0, radius=0.5
+    )
+    left = [system.residual(step.time, step.q, step.v, step.a)[0] for step in path]
+    assert np.abs(left).max() < 1e-11
+
+
+START = (np.array([1.3, 0.9]), np.array([0.0, 0.4]))
+
+
+def radau(end: float) -> Array:
+    """(4,) state of the elastic pendulum by SciPy's Radau."""
+    system = ElasticPendulum()
+
+    def rate(time: float, y: Array) -> Array:
+        q, v = y[:2], y[2:]
+        force = system.residual(time, q, v, np.zeros(2))
+        return np.concatenate([v, -np.linalg.solve(system.mass(q), force)])
+
+    solution = solve_ivp(
+        rate, (0, end), np.concatenate(START), method="Radau", rtol=1e-11, atol=1e-12
+    )
+    assert solution.success
+    return solution.y[:, -1]
+
+
+@pytest.mark.parametrize("radius", RADII)
+def test_order_two_and_agreement_with_radau_on_a_pendulum(radius: float) -> None:
+    """A nonlinear system with a mass matrix that changes: order 2, and the limit is Radau's."""
+    system, steps, end = ElasticPendulum(), np.array([0.008, 0.004, 0.002]), 2.0
+    found = []
+    for dt in steps:
+        last = integrate(system, *START, dt=float(dt), end=end, radius=radius)[-1]
+        found.append(np.concatenate([last.q, last.v]))
+    reference = radau(end)
+    errors = [np.abs(state - reference).max() for state in found]
+    assert fitted_order(steps, errors) == pytest.approx(2.0, abs=0.1)
+    extrapolated = found[2] + (found[2] - found[1]) / 3
+    assert np.abs(extrapolated - reference).max() < 0.02 * errors[2]
+
+
+def test_energy_of_a_linear_oscillator_is_kept() -> None:
+    """With spectral radius 1 an undamped, unforced oscillator keeps its energy for 1000 periods."""
+    system = Oscillator(damping=0.0, load=0.0)
+    path = integrate(system, np.array([1.0]), np.array([0.0]), dt=0.3, end=3000.0, radius=1.0)
+    energy = [system.mass_ * s.v[0] ** 2 / 2 + system.stiffness * s.q[0] ** 2 / 2 for s in path]
+    assert np.abs(np.array(energy) / energy[0] - 1).max() < 1e-9
+
+
+def test_energy_of_a_pendulum_does_not_drift() -> None:
+    """Nonlinear: the energy error oscillates within O(dt^2) and does not grow."""
+    system = ElasticPendulum()
+    path = integrate(system, *START, dt=0.01, end=60.0, radius=1.0)
+    energy = np.array([system.energy(step.q, step.v) for step in path])
+    # The scale is the energy above the state of rest.
+    low = ElasticPendulum().energy(np.array([1 + 9.81 / 40, 0.0]), np.zeros(2))
+    error = np.abs(energy - energy[0]) / (energy[0] - low)
+    early, late = error[:2000].max(), error[-2000:].max()
+    assert error.max() < 0.01
+    assert late < 1.5 * early
+
+
+def test_numerical_damping_takes_energy() -> None:
+    """Negative control: with spectral radius 0.5 the same pendulum loses energy."""
+    system = ElasticPendulum()
+    path = integrate(system, *START, dt=0.05, end=60.0, radius=0.5)
+    assert system.energy(path[-1].q, path[-1].v) < system.energy(*START) - 0.1
+
+
+def test_high_frequency_is_damped_as_asked() -> None:
+    """For omega dt -> infinity the amplitude falls by the spectral radius each step."""
+    system = Oscillator(mass_=1.0, damping=0.0, stiffness=1e10, load=0.0)
+    path = integrate(system, np.array([1e-6]), np.array([0.0]), dt=1.0, end=60.0, radius=0.8)
+    size = np.array([abs(step.q[0]) for step in path])
+    assert size[-1] > 0
+    assert (size[50] / size[30]) ** (1 / 20) == pytest.approx(0.8, rel=0.05)
+
+
+class BreaksDown(Oscillator):
+    """An oscillator whose load is not a number after one second."""
+
+    def residual(self, time: float, q: Array, v: Array, a: Array) -> Array:
+        return super().residual(time, q, v, a) + (np.nan if time > 1.0 else 0.0)
+
+
+class HasNoSolution(Oscillator):
+    """A law that no acceleration satisfies: 1 + (dt^2 scale) q^2 = 0."""
+
+    def residual(self, time: float, q: Array, v: Array, a: Array) -> Array:
+        return a + 1e6 * (1 + q**2) if time > 0.45 else a
+
+
+@pytest.mark.parametrize(("system", "number"), [(BreaksDown(), 11), (HasNoSolution(), 5)])
+def test_failed_step_is_told(system: SecondOrderSystem, number: int) -> None:
+    """The step and its time are named, and the steps before it were given out."""
+    method = GeneralizedAlpha(0.1)
+    steps = method.steps(system, np.zeros(1), np.zeros(1), count=20, scale=1.0)
+    given = list(islice(steps, number))
+    assert given[-1].number == number - 1
+    with pytest.raises(StepFailed) as caught:
+        next(steps)
+    assert caught.value.number == number
+    assert caught.value.time == pytest.approx(0.1 * number)
