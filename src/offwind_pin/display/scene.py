@@ -82,7 +82,7 @@ def body_meshes(system: System) -> dict[str, Mesh]:
 
 
 def draw_site(view: Any, system: System) -> None:
-    """Mudline and still water as translucent discs, the axis at rest, a block where it is clamped."""
+    """Mudline and still water as translucent discs, the axis at rest, a block if it is clamped."""
     chain, mudline = system.chain, system.turbine.site.mudline
     height = chain.top - chain.base
     radius = 0.3 * height

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import lu_factor, lu_solve
 
 Array = NDArray[np.float64]
 
@@ -56,8 +55,8 @@ def newton(
         if iteration == max_iterations:
             break
         try:
-            step = -lu_solve(lu_factor(tangent(x)), r)
-        except (np.linalg.LinAlgError, ValueError):
+            step = -np.linalg.solve(tangent(x), r)
+        except np.linalg.LinAlgError:
             break
         increment = float(np.max(np.abs(step)))
         x = x + step * min(1.0, largest_step / increment if increment > 0 else 1.0)
