@@ -15,13 +15,13 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
 from offwind_pin.analysis.build import build
-from offwind_pin.analysis.modal import modes
+from offwind_pin.analysis.modal import mode_name, modes
 from offwind_pin.analysis.static import static
 from offwind_pin.campaign.case import load_case
 from offwind_pin.campaign.export import export_urdf
 from offwind_pin.campaign.overview import Overview, overview
 from offwind_pin.campaign.run import run_case
-from offwind_pin.campaign.summaries import plain_name, summarise_modes, summarise_static
+from offwind_pin.campaign.summaries import summarise_modes, summarise_static
 from offwind_pin.display.animation import animate
 from offwind_pin.dynamics.sea import StillWater
 from offwind_pin.errors import InputError, InterruptedSimulation, SolverError
@@ -77,7 +77,7 @@ def modes_command(
     for row in rows:
         table.add_row(
             row["label"],
-            plain_name(row["label"]),
+            mode_name(row["label"]),
             f"{row['frequency_hz']:.4f} Hz",
             f"{100 * row['damping_ratio']:.2f} %",
             f"{row['shape_peak_height_ratio']:.2f} of height",

@@ -21,7 +21,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 from numpy.typing import NDArray
 
 import offwind_pin as ow
-from offwind_pin.display import meshes
+from offwind_pin.analysis.modal import mode_name
 from offwind_pin.display.animation import animate
 from offwind_pin.display.motion import (
     FRAMES,
@@ -29,14 +29,15 @@ from offwind_pin.display.motion import (
     PEAK_TILT,
     PEAK_TWIST,
     mode_motion,
-    plain_name,
 )
 from offwind_pin.display.recorder import Recorder, meshcat, meshcat_geometry
-from offwind_pin.display.rotor import rna_meshes
-from offwind_pin.display.scene import body_meshes, view_extent
+from offwind_pin.display.scene import view_extent
 from offwind_pin.display.springs import foundation_springs, node_step, zigzag
 from offwind_pin.dynamics.poses import body_poses
+from offwind_pin.structure import meshes
 from offwind_pin.structure.frustum import Frustum
+from offwind_pin.structure.meshes import body_meshes
+from offwind_pin.structure.rotor import rna_meshes
 from offwind_pin.turbines.definition import RigidBodyRNA
 from offwind_pin.turbines.rna import rotor_apex
 
@@ -165,10 +166,10 @@ def test_short_waves_do_not_curl_up(
 
 def test_names_in_words() -> None:
     """Labels as a person says them."""
-    assert plain_name("FA2") == "second fore-aft"
-    assert plain_name("SS1") == "first side-side"
-    assert plain_name("T3") == "third torsion"
-    assert plain_name("V11") == "11th vertical"
+    assert mode_name("FA2") == "second fore-aft"
+    assert mode_name("SS1") == "first side-side"
+    assert mode_name("T3") == "third torsion"
+    assert mode_name("V11") == "11th vertical"
 
 
 # Meshes
@@ -208,7 +209,7 @@ def test_detector_of_open_edges_finds_a_hole() -> None:
 def test_bodies_are_drawn_with_their_steel(system: ow.System) -> None:
     """Volume times density of each body's mesh is its mass, point masses apart."""
     turbine, chain = system.turbine, system.chain
-    drawn = body_meshes(system)
+    drawn = body_meshes(system.turbine, system.chain)
     assert len(drawn) == chain.elements + 1
     density = {material.density for material in turbine.materials.values()}
     masses = np.array([body.mass for body in chain.body])
@@ -227,7 +228,11 @@ def test_bodies_meet_at_the_joints(distributed_wet: ow.System) -> None:
     chain = distributed_wet.chain
     spans = [
         (mesh.vertices[:, 2].min() + origin, mesh.vertices[:, 2].max() + origin)
-        for mesh, origin in zip(body_meshes(distributed_wet).values(), chain.origin, strict=True)
+        for mesh, origin in zip(
+            body_meshes(distributed_wet.turbine, distributed_wet.chain).values(),
+            chain.origin,
+            strict=True,
+        )
     ]
     assert spans[0][0] == pytest.approx(chain.base)
     assert spans[-1][1] == pytest.approx(chain.top)
@@ -363,7 +368,7 @@ def test_page_draws_and_moves_every_body(
     """Each body has an object of its amplitude's colour and an endless clip of its poses."""
     commands = commands_of(fa2_page)
     motion = mode_motion(distributed_wet, distributed_modes, "FA2")
-    names = list(body_meshes(distributed_wet))
+    names = list(body_meshes(distributed_wet.turbine, distributed_wet.chain))
     objects = {c["path"]: c["object"] for c in commands if c["type"] == "set_object"}
     for name, share in zip(names, motion.share, strict=True):
         material = objects[f"/meshcat/turbine/{name}/wall"]["materials"][0]

@@ -14,6 +14,7 @@ from offwind_pin.turbines.definition import Array
 
 FAMILIES = {"FA": "fore-aft", "SS": "side-side", "T": "torsion", "V": "vertical"}
 _FAMILY_OF_JOINT = {"px": "FA", "ry": "FA", "py": "SS", "rx": "SS", "rz": "T", "pz": "V"}
+_ORDINALS = {1: "first", 2: "second", 3: "third", 4: "fourth", 5: "fifth", 6: "sixth"}
 _SHOWN = {"FA": 0, "SS": 1, "V": 2, "T": 5}
 
 
@@ -57,6 +58,18 @@ class ModalResult:
                 "mode", label, ", ".join(self.label), "Choose one of them, or compute more modes."
             )
         return self.label.index(label)
+
+
+def mode_family(label: str) -> str:
+    """FA, SS, T or V."""
+    return label.rstrip("0123456789")
+
+
+def mode_name(label: str) -> str:
+    """A label in words: ``FA2`` is "second fore-aft"."""
+    family = mode_family(label)
+    order = int(label.removeprefix(family))
+    return f"{_ORDINALS.get(order, f'{order}th')} {FAMILIES[family]}"
 
 
 def modes(system: System, n: int = 8, about: StaticResult | None = None) -> ModalResult:

@@ -6,7 +6,7 @@ from typing import Any
 
 import xarray as xr
 
-from offwind_pin.analysis.modal import FAMILIES, ModalResult
+from offwind_pin.analysis.modal import ModalResult
 from offwind_pin.analysis.static import StaticResult
 from offwind_pin.display.report import Band, MomentSpectrum
 from offwind_pin.signal.spectra import band_sum, peaks, power_spectral_density
@@ -82,11 +82,3 @@ def _nearest_peak(spectrum: MomentSpectrum, name: str) -> float | None:
     at, nearness = spectrum.marked[name], NEARNESS.get(name, 0.02)
     near = [peak for peak in spectrum.peaks if abs(peak / at - 1) <= nearness]
     return min(near, key=lambda peak: abs(peak - at)) if near else None
-
-
-def plain_name(label: str) -> str:
-    """A label in words: ``FA2`` is "second fore-aft"."""
-    family = label.rstrip("0123456789")
-    number = int(label[len(family) :])
-    ordinal = {1: "first", 2: "second", 3: "third"}.get(number, f"{number}th")
-    return f"{ordinal} {FAMILIES[family]}"

@@ -11,8 +11,8 @@ import matplotlib as mpl
 import numpy as np
 from markupsafe import Markup
 
-from offwind_pin.analysis.modal import ModalResult
-from offwind_pin.display.motion import ModeMotion, mode_motion, plain_name
+from offwind_pin.analysis.modal import ModalResult, mode_name
+from offwind_pin.display.motion import ModeMotion, mode_motion
 from offwind_pin.display.recorder import Recorder, viewer_licence, viewer_script
 from offwind_pin.display.scene import (
     AXIS_COLOUR,
@@ -60,7 +60,7 @@ def animate(system: System, result: ModalResult, label: str, *, links: bool = Fa
         wet=system.sea is not None,
         springs=_springs_in_words(system),
         label=label,
-        name=plain_name(label),
+        name=mode_name(label),
         frequency_hz=float(result.frequency_hz[index]),
         damping_ratio=float(result.damping_ratio[index]),
         modes=result.label if links else [],

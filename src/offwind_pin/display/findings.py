@@ -11,6 +11,7 @@ import numpy as np
 from offwind_pin.display.plots import FOUNDATION_NAMES
 from offwind_pin.display.wording import (
     TIMES,
+    as_given,
     count,
     difference,
     fixed,
@@ -327,8 +328,8 @@ def describe_sea(system: System) -> str:
         return "none (dry)"
     if isinstance(sea, IrregularWaves):
         return (
-            f"irregular waves, Pierson-Moskowitz, Hs {number(sea.significant_height, 3)} m, "
-            f"Tp {number(sea.peak_period, 3)} s"
+            "irregular waves, Pierson-Moskowitz, "
+            f"Hs {as_given(sea.significant_height)} m, Tp {as_given(sea.peak_period)} s"
         )
     return "still water"
 

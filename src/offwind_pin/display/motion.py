@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from offwind_pin.analysis.modal import FAMILIES, ModalResult
+from offwind_pin.analysis.modal import ModalResult, mode_family
 from offwind_pin.dynamics.poses import body_poses
 from offwind_pin.dynamics.system import System
 from offwind_pin.turbines.definition import Array
@@ -21,8 +21,6 @@ PEAK_TWIST = np.radians(30.0)
 PEAK_TILT = np.radians(35.0)
 """Largest rotation of a bending mode in rad, which bounds its peak: a shape with short waves would
 curl up, and the rotor swing wildly, long before it moved by that share of the height."""
-
-_ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth")
 
 
 @dataclass(frozen=True)
@@ -76,19 +74,6 @@ def body_amplitude(result: ModalResult, label: str) -> Array:
     if mode_family(label) == "T":
         return np.asarray(np.abs(shape[:, 5]))
     return np.asarray(np.linalg.norm(shape[:, :3], axis=1))
-
-
-def mode_family(label: str) -> str:
-    """FA, SS, T or V."""
-    return label.rstrip("0123456789")
-
-
-def plain_name(label: str) -> str:
-    """Name of a mode in words: ``second fore-aft`` for FA2."""
-    family = mode_family(label)
-    number = int(label.removeprefix(family))
-    ordinal = _ORDINALS[number - 1] if number <= len(_ORDINALS) else f"{number}th"
-    return f"{ordinal} {FAMILIES[family]}"
 
 
 def _scale(system: System, shape: Array, family: str, largest: float) -> float:

@@ -86,7 +86,7 @@ def mode_shapes(modes: ModalResult, mudline: float, *, water: bool = True) -> Fi
         axes.set_xlim(-1.12, 1.12)
         axes.set_ylim(modes.height[0], modes.height[-1] * 1.03)
     for axes in panels:
-        mark_levels(axes, mudline, water=water, labels=axes is panels[0])
+        mark_levels(axes, mudline, water=water, named="right" if axes is panels[0] else None)
     panels[0].set_ylabel(_HEIGHT_LABEL)
     return figure
 
@@ -128,19 +128,17 @@ def statics(results: Mapping[str, StaticResult], *, water: bool = True) -> Figur
         axes.axvline(0, color=MUTED, lw=0.7, zorder=1)
         axes.set_ylim(low, top + 18)
         axes.grid(axis="x")
-        mark_levels(axes, mudline, water=water, labels=axes is moment)
+    downwind = all(result.tower_top_displacement[0] > 0 for result in results.values())
+    mark_levels(shape, mudline, water=water, named="right" if downwind else "left")
+    mark_levels(moment, mudline, water=water)
     shape.set_xlabel("displacement along x, m")
     shape.set_ylabel(_HEIGHT_LABEL)
     shape.set_title("Deflected shape")
     moment.set_xlabel("fore-aft section moment (about y), MN m")
     moment.set_title("Section moment")
-    shape.legend(loc="upper left" if _leans_downwind(results) else "lower left")
+    shape.legend(loc="upper left" if downwind else "lower left")
     _tower_top_labels(shape, results)
     return figure
-
-
-def _leans_downwind(results: Mapping[str, StaticResult]) -> bool:
-    return all(result.tower_top_displacement[0] > 0 for result in results.values())
 
 
 def _tower_top_labels(axes: Axes, results: Mapping[str, StaticResult]) -> None:
@@ -358,8 +356,9 @@ def section_load_envelope(histories: xr.Dataset) -> Figure:
         axes.set_xlabel(label)
         axes.grid(axis="x")
     panels[0].legend(loc="best")
-    for axes in panels:
-        mark_levels(axes, mudline, water=histories.attrs.get("sea") != "dry")
+    water = histories.attrs.get("sea") != "dry"
+    mark_levels(panels[0], mudline, water=water)
+    mark_levels(panels[1], mudline, water=water, named="left")
     panels[0].set_ylabel(_HEIGHT_LABEL)
     return figure
 

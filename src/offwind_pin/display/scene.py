@@ -8,14 +8,13 @@ import matplotlib as mpl
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from offwind_pin.display.meshes import Mesh, box, circle, disc, hollow_frustum, loft
 from offwind_pin.display.motion import FRAMES, ModeMotion
 from offwind_pin.display.recorder import meshcat_animation, meshcat_geometry
-from offwind_pin.display.rotor import rna_meshes
 from offwind_pin.display.springs import Spring, foundation_springs, zigzag
 from offwind_pin.dynamics.system import System
+from offwind_pin.structure.meshes import Mesh, body_meshes, box, circle, disc, loft
+from offwind_pin.structure.rotor import rna_meshes
 from offwind_pin.structure.section import frusta, outer_diameter
-from offwind_pin.structure.urdf import body_links
 from offwind_pin.turbines.definition import Array
 
 COLOUR_MAP = "viridis"
@@ -52,7 +51,7 @@ def draw_bodies(view: Any, system: System, motion: ModeMotion) -> None:
     not move the outline of a round tower: there the bodies carry stripes.
     """
     chain = system.chain
-    for k, (name, mesh) in enumerate(body_meshes(system).items()):
+    for k, (name, mesh) in enumerate(body_meshes(system.turbine, chain).items()):
         part = view["turbine"][name]
         colour = _as_hex(mpl.colormaps[COLOUR_MAP](float(motion.share[k])))
         _set_mesh(part["wall"], mesh, colour)
@@ -61,24 +60,11 @@ def draw_bodies(view: Any, system: System, motion: ModeMotion) -> None:
         part.set_transform(motion.poses[0, k])
     seat = np.eye(4)
     seat[2, 3] = chain.top - chain.origin[-1]
-    rna = view["turbine"][body_links(chain)[-1]]["rna"]
+    rna = view["turbine"][chain.body_name[-1]]["rna"]
     rna.set_transform(seat)
     diameter = float(outer_diameter(system.turbine, np.array([chain.top]))[0])
     for name, mesh in rna_meshes(system.turbine.rna, diameter).items():
         _set_mesh(rna[name], mesh, _RNA_COLOUR)
-
-
-def body_meshes(system: System) -> dict[str, Mesh]:
-    """Hollow frusta of each rigid body, in its frame, by the name of its link; the base first."""
-    chain, turbine = system.chain, system.turbine
-    result = {}
-    for k, name in enumerate(body_links(chain)):
-        low, high = _extent(system, k)
-        shells = frusta(turbine, low, high)
-        result[name] = Mesh.combine(
-            [hollow_frustum(base - chain.origin[k], shell) for base, shell in shells]
-        )
-    return result
 
 
 def draw_site(view: Any, system: System) -> None:
@@ -120,7 +106,7 @@ def view_extent(system: System) -> tuple[float, float, float]:
 def _body_clips(view: Any, system: System, motion: ModeMotion) -> dict[Any, Any]:
     """Animation of each body, by its path."""
     clips = {}
-    for k, name in enumerate(body_links(system.chain)):
+    for k, name in enumerate(system.chain.body_name):
         pose = motion.poses[:, k]
         clips[view["turbine"][name].path] = _clip(
             position=pose[:, :3, 3], quaternion=_quaternion(pose[:, :3, :3])
@@ -197,7 +183,7 @@ def _set_mesh(part: Any, mesh: Mesh, colour: int, opacity: float = 1.0) -> None:
 
 def _stripes(system: System, k: int) -> Mesh:
     """Four strips along the wall of a body, dark to stand out where it turns."""
-    low, high = _extent(system, k)
+    low, high = system.chain.cut[k : k + 2]
     strips = []
     for base, shell in frusta(system.turbine, low, high):
         z = base - system.chain.origin[k]
@@ -209,12 +195,6 @@ def _stripes(system: System, k: int) -> Mesh:
                 rims.append(np.column_stack([points, np.full(2, level)]))
             strips.append(loft(np.array(rims), capped=False))
     return Mesh.combine(strips)
-
-
-def _extent(system: System, k: int) -> tuple[float, float]:
-    """Heights in m between which body k lies."""
-    chain = system.chain
-    return float(chain.origin[k]), float(np.append(chain.origin[1:], chain.top)[k])
 
 
 def _as_hex(rgba: tuple[float, ...]) -> int:

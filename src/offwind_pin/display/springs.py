@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from offwind_pin.display.meshes import Mesh, tube
 from offwind_pin.dynamics.system import System
+from offwind_pin.structure.meshes import Mesh, tube
 from offwind_pin.structure.section import outer_diameter
 from offwind_pin.turbines.definition import Array
 

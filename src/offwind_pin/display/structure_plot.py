@@ -44,7 +44,7 @@ def structure(system: System) -> Figure:
     shown again in a panel with the embedded pile enlarged, one for each node.
     """
     soil = soil_springs(system)
-    figure = Figure(figsize=(7.6 if soil else 4.4, 8.2))
+    figure = Figure(figsize=(7.6 if soil else 4.4, 7.8))
     if soil is None:
         whole, enlarged = figure.subplots(), None
     else:

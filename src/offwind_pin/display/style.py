@@ -6,7 +6,7 @@ import functools
 import re
 from collections.abc import Callable, Sequence
 from io import StringIO
-from typing import Any, ParamSpec, TypeVar
+from typing import Any, Literal, ParamSpec, TypeVar
 
 import matplotlib as mpl
 import numpy as np
@@ -141,8 +141,10 @@ def powers_of_ten(value: float, _: int | None = None) -> str:
 POWERS_OF_TEN = FuncFormatter(powers_of_ten)
 
 
-def mark_levels(axes: Axes, mudline: float, *, water: bool, labels: bool = True) -> None:
-    """Ground, mudline and still water line behind curves over height."""
+def mark_levels(
+    axes: Axes, mudline: float, *, water: bool, named: Literal["left", "right"] | None = None
+) -> None:
+    """Ground, mudline and still water line behind curves over height, named on one side or not."""
     low = axes.get_ylim()[0]
     if low < mudline:
         axes.axhspan(low, mudline, color=SOIL, lw=0, zorder=0)
@@ -151,14 +153,14 @@ def mark_levels(axes: Axes, mudline: float, *, water: bool, labels: bool = True)
     levels += [(0.0, "still water", BLUE)] if water else []
     for height, name, color in levels:
         axes.axhline(height, color=color, lw=0.8, ls=(0, (5, 3)), zorder=1)
-        if labels:
+        if named is not None:
             axes.annotate(
                 name,
-                (1, height),
+                (float(named == "right"), height),
                 xycoords=("axes fraction", "data"),
-                xytext=(-2, 2),
+                xytext=(-2 if named == "right" else 2, 2),
                 textcoords="offset points",
-                ha="right",
+                ha=named,
                 fontsize=8.5,
                 color=color,
                 bbox={"boxstyle": "square,pad=0.1", "fc": "white", "ec": "none", "alpha": 0.7},

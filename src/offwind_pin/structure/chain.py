@@ -82,6 +82,17 @@ class Chain:
         """(N + 1,) heights of the body frames: the base, then the joints."""
         return np.concatenate([[self.base], self.joint_height])
 
+    @property
+    def cut(self) -> Array:
+        """(N + 2,) heights at which the bodies end: body k lies between cuts k and k + 1."""
+        return np.concatenate([[self.base], self.joint_height, [self.top]])
+
+    @property
+    def body_name(self) -> list[str]:
+        """Names of the N + 1 bodies, from the base upwards."""
+        elements = [name.removesuffix("_rx") for name in self.joint_name[self.roots :: 3]]
+        return ["base", *(name.replace("_e", "_b") for name in elements)]
+
     def body_at(self, height: Array) -> NDArrayInt:
         """Index of the body that carries the axis at each height; at a joint, the body above."""
         return np.searchsorted(self.joint_height, height, side="right")

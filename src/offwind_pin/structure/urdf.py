@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import hashlib
-import struct
 import xml.etree.ElementTree as ET
 from typing import Any
 
 import numpy as np
 
 from offwind_pin.structure.chain import NODE_JOINTS, Chain
-from offwind_pin.structure.section import frusta
+from offwind_pin.structure.meshes import Mesh, body_meshes
+from offwind_pin.structure.rotor import rna_meshes
+from offwind_pin.structure.section import outer_diameter
 from offwind_pin.turbines.definition import Array, Turbine
 
 _AXIS = {"x": "1 0 0", "y": "0 1 0", "z": "0 0 1"}
-_FACETS = 24
 _YELLOW, _WHITE = "0.93 0.77 0.20 1", "0.88 0.89 0.90 1"
 
 
@@ -22,13 +22,14 @@ def write_urdf(turbine: Turbine, chain: Chain) -> str:
     """URDF text of a chain; every number with 17 significant digits.
 
     A node is three revolute joints in series (x, y, z), with massless links between them. Each body
-    has one mesh of its frusta as visual, ``meshes/LINK.stl`` beside the file.
+    has one mesh of its frusta as visual, ``meshes/LINK.stl`` beside the file, and the rotor-nacelle
+    assembly one of nacelle, hub and blades (:func:`write_meshes`).
     """
     robot = ET.Element("robot", name=turbine.name)
     ET.SubElement(robot, "link", name="world")
     _materials(robot)
     parent, height = "world", 0.0
-    links = body_links(chain)
+    links = chain.body_name
     if chain.free_root:
         for joint in chain.joint_name[:6]:
             child = links[0] if joint.endswith("rz") else f"{joint}_link"
@@ -52,39 +53,22 @@ def write_urdf(turbine: Turbine, chain: Chain) -> str:
     _fixed_joint(robot, "yaw_bearing", parent, "rna", [0.0, 0.0, chain.top - height])
     rna = ET.SubElement(robot, "link", name="rna")
     _inertial(rna, chain.rna.mass, chain.rna.center_of_mass, chain.rna.inertia)
+    _visual(rna, "rna", "tower_white")
     ET.indent(robot)
     return (
         '<?xml version="1.0" encoding="utf-8"?>\n' + ET.tostring(robot, encoding="unicode") + "\n"
     )
 
 
-def body_links(chain: Chain) -> list[str]:
-    """Names of the links that have mass, from the base upwards."""
-    names = [
-        chain.joint_name[chain.roots + 3 * k].removesuffix("_rx") for k in range(chain.elements)
-    ]
-    return ["base", *(name.replace("_e", "_b") for name in names)]
-
-
 def write_meshes(turbine: Turbine, chain: Chain) -> dict[str, bytes]:
-    """Binary STL of each body, by file name; coordinates in the frame of its link, in m."""
-    cuts = np.concatenate([[chain.base], chain.joint_height, [chain.top]])
-    result = {}
-    for k, link in enumerate(body_links(chain)):
-        shells = frusta(turbine, cuts[k], cuts[k + 1])
-        triangles = np.concatenate(
-            [
-                _hollow_frustum(
-                    base - chain.origin[k],
-                    shell.height,
-                    (shell.outer_bottom, shell.outer_top),
-                    (shell.inner_bottom, shell.inner_top),
-                )
-                for base, shell in shells
-            ]
-        )
-        result[f"{link}.stl"] = _stl(triangles)
-    return result
+    """Binary STL of each body and of the rotor-nacelle assembly, by file name.
+
+    Coordinates are in the frame of the link, in m.
+    """
+    meshes = body_meshes(turbine, chain)
+    diameter = float(outer_diameter(turbine, np.array([chain.top]))[0])
+    meshes["rna"] = Mesh.combine(list(rna_meshes(turbine.rna, diameter).values()))
+    return {f"{name}.stl": mesh.to_stl() for name, mesh in meshes.items()}
 
 
 def write_sidecar(
@@ -144,15 +128,18 @@ def _fixed_joint(robot: ET.Element, name: str, parent: str, child: str, xyz: lis
 
 
 def _body(robot: ET.Element, chain: Chain, k: int) -> None:
-    name = body_links(chain)[k]
+    name = chain.body_name[k]
     link = ET.SubElement(robot, "link", name=name)
     body = chain.body[k]
     center = np.array([0.0, 0.0, body.center - chain.origin[k]])
     _inertial(link, body.mass, center, body.inertia())
+    _visual(link, name, "tower_white" if name.startswith("tower") else "monopile_yellow")
+
+
+def _visual(link: ET.Element, name: str, colour: str) -> None:
     visual = ET.SubElement(link, "visual")
     geometry = ET.SubElement(visual, "geometry")
     ET.SubElement(geometry, "mesh", filename=f"meshes/{name}.stl")
-    colour = "tower_white" if name.startswith("tower") else "monopile_yellow"
     ET.SubElement(visual, "material", name=colour)
 
 
@@ -177,39 +164,3 @@ def _origin(parent: ET.Element, xyz: Array | list[float]) -> None:
 
 def _text(value: float) -> str:
     return format(float(value), ".17g")
-
-
-def _hollow_frustum(
-    base: float, height: float, outer: tuple[float, float], inner: tuple[float, float]
-) -> Array:
-    """(n, 3, 3) triangles of a closed hollow frustum, normals outwards."""
-    angle = np.linspace(0, 2 * np.pi, _FACETS, endpoint=False)
-    unit = np.stack([np.cos(angle), np.sin(angle)], axis=1)
-
-    def ring(radius: float, z: float) -> Array:
-        return np.column_stack([radius * unit, np.full(_FACETS, z)])
-
-    loop = [
-        ring(outer[0], base),
-        ring(outer[1], base + height),
-        ring(inner[1], base + height),
-        ring(inner[0], base),
-    ]
-    quads = []
-    for start, end in zip(loop, [*loop[1:], loop[0]], strict=True):
-        start_next, end_next = np.roll(start, -1, axis=0), np.roll(end, -1, axis=0)
-        quads.append(np.stack([start, start_next, end_next], axis=1))
-        quads.append(np.stack([start, end_next, end], axis=1))
-    return np.concatenate(quads)
-
-
-def _stl(triangles: Array) -> bytes:
-    normal = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-    length = np.linalg.norm(normal, axis=1, keepdims=True)
-    normal = normal / np.where(length > 0, length, 1)
-    record = np.zeros(
-        len(triangles), dtype=[("normal", "<f4", 3), ("corner", "<f4", (3, 3)), ("unused", "<u2")]
-    )
-    record["normal"], record["corner"] = normal, triangles
-    header = b"offwind-pin body".ljust(80, b" ")
-    return header + struct.pack("<I", len(triangles)) + record.tobytes()

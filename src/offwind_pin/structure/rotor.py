@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from offwind_pin.display.meshes import FACETS, Mesh, box, loft
+from offwind_pin.structure.meshes import FACETS, Mesh, box, loft
 from offwind_pin.turbines.definition import Array, RigidBodyRNA, RotorNacelleRNA
 from offwind_pin.turbines.rna import rotor_apex
 

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from offwind_pin.structure.chain import NDArrayInt
+from offwind_pin.structure.chain import Chain, NDArrayInt
 from offwind_pin.structure.frustum import Frustum
-from offwind_pin.turbines.definition import Array
+from offwind_pin.structure.section import frusta
+from offwind_pin.turbines.definition import Array, Turbine
 
 FACETS = 32
 """Sides of what is round. Normals are smoothed around it, so that few suffice."""
@@ -44,6 +45,30 @@ class Mesh:
             np.concatenate([part.vertices for part in parts]),
             np.concatenate([part.faces + start for part, start in zip(parts, starts, strict=True)]),
         )
+
+    def to_stl(self) -> bytes:
+        """The mesh as a binary STL file."""
+        corner = self.vertices[self.faces]
+        normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+        length = np.linalg.norm(normal, axis=1, keepdims=True)
+        record = np.zeros(
+            len(corner), dtype=[("normal", "<f4", 3), ("corner", "<f4", (3, 3)), ("unused", "<u2")]
+        )
+        record["normal"] = np.divide(normal, length, out=np.zeros_like(normal), where=length > 0)
+        record["corner"] = corner
+        count = np.array(len(corner), dtype="<u4").tobytes()
+        return b"offwind-pin body".ljust(80, b" ") + count + record.tobytes()
+
+
+def body_meshes(turbine: Turbine, chain: Chain) -> dict[str, Mesh]:
+    """Hollow frusta of each rigid body of a chain, in its frame, by its name; the base first."""
+    result = {}
+    for k, name in enumerate(chain.body_name):
+        shells = frusta(turbine, chain.cut[k], chain.cut[k + 1])
+        result[name] = Mesh.combine(
+            [hollow_frustum(base - chain.origin[k], shell) for base, shell in shells]
+        )
+    return result
 
 
 def loft(sections: Array, *, capped: bool = True) -> Mesh:
