@@ -42,9 +42,7 @@ def test_uniform(rule: str) -> None:
     counts = np.array([16, 24, 36])
     roots = cantilever_roots(5)
     assert roots[:2] == pytest.approx([1.8751040687, 4.6940911330], rel=1e-10)
-    exact = roots**2 * np.sqrt(
-        bending_stiffness(*SLENDER) / mass_per_length(*SLENDER) / LENGTH**4
-    )
+    exact = roots**2 * np.sqrt(bending_stiffness(*SLENDER) / mass_per_length(*SLENDER) / LENGTH**4)
     turbine = tube(bottom=SLENDER, top=SLENDER, top_mass=1e-9)
     errors = np.array([bending(turbine, rule, int(n), 5) for n in counts]) / exact - 1
     assert np.all(rotary_inertia_share(5) < 0.02 * np.abs(errors[-1]))

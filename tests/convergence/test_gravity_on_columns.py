@@ -32,14 +32,12 @@ def lowest_eigenvalue(n: int, gravity: float, rule: str) -> float:
 def critical_load(n: int, rule: str) -> float:
     """w L^3 / EI at which the straight chain loses its stiffness."""
     to_gravity = bending_stiffness(*THIN) / mass_per_length(*THIN) / LENGTH**3
-    return brentq(
-        lambda load: lowest_eigenvalue(n, load * to_gravity, rule), 4.0, 12.0, xtol=1e-10
-    )
+    return brentq(lambda load: lowest_eigenvalue(n, load * to_gravity, rule), 4.0, 12.0, xtol=1e-10)
 
 
 def test_buckling_under_its_own_weight(rule: str) -> None:
     """The critical weight 7.837 EI / L^3 with order 2."""
-    assert CRITICAL == pytest.approx(7.837, abs=5e-4)
+    assert pytest.approx(7.837, abs=5e-4) == CRITICAL
     counts = np.array([5, 10, 20])
     errors = [critical_load(int(n), rule) / CRITICAL - 1 for n in counts]
     assert abs(errors[-1]) < 5e-3
@@ -69,9 +67,7 @@ def test_weight_on_top_of_a_light_column() -> None:
     euler = np.pi**2 * bending_stiffness(*light) / 4 / LENGTH**2
 
     def lowest(weight: float, n: int) -> float:
-        turbine = tube(
-            bottom=light, top=light, density=100.0, gravity=weight / mass, top_mass=mass
-        )
+        turbine = tube(bottom=light, top=light, density=100.0, gravity=weight / mass, top_mass=mass)
         system = ow.build(turbine, "clamped", elements=n)
         rest = np.zeros(system.nv)
         stiffness, _ = system.equations((), np.inf).tangents(0.0, rest, rest)

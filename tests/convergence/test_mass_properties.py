@@ -35,9 +35,9 @@ def test_moments_do_not_depend_on_the_elements(
 def test_mass_matrix_of_rigid_motion(undamped: ow.Turbine) -> None:
     """The root's six rows are the rigid body's, on few elements and on many, assembly included."""
     blocks = [
-        ow.build(undamped, "coupled_springs", elements=n).equations().mass(np.zeros(6 + 3 * n))[
-            :6, :6
-        ]
+        ow.build(undamped, "coupled_springs", elements=n)
+        .equations()
+        .mass(np.zeros(6 + 3 * n))[:6, :6]
         for n in (3, 30)
     ]
     assert blocks[0] == pytest.approx(blocks[1], rel=1e-12, abs=1e-12 * blocks[0].max())
@@ -51,8 +51,13 @@ def test_point_masses_are_counted_once() -> None:
         {"name": f"m{i}", "z": z, "mass": 1000.0 * (i + 1), "inertia": (10.0, 10.0, 20.0)}
         for i, z in enumerate(heights)
     ]
-    loaded = ow.Turbine.model_validate(plain.model_dump() | {"point_masses": masses, "site": {
-        "water_depth": 20.0, "water_density": 1000.0, "gravity": 1.0}})
+    loaded = ow.Turbine.model_validate(
+        plain.model_dump()
+        | {
+            "point_masses": masses,
+            "site": {"water_depth": 20.0, "water_density": 1000.0, "gravity": 1.0},
+        }
+    )
     for elements in (1, 2, 4, 8, 20):
         extra = whole(loaded, "clamped", elements).mass - whole(plain, "clamped", elements).mass
         assert extra == pytest.approx(15000.0, rel=1e-9)

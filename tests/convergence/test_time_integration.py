@@ -47,9 +47,7 @@ def test_order_two_on_an_oscillator(radius: float) -> None:
 def test_acceleration_meets_the_equations_of_motion() -> None:
     """The reported acceleration is the true one of each step's end: the residual vanishes with it."""
     system = Oscillator()
-    path = integrate(
-        system, np.array([0.3]), np.array([-0.5]), dt=0.05, end=5.0, radius=0.5
-    )
+    path = integrate(system, np.array([0.3]), np.array([-0.5]), dt=0.05, end=5.0, radius=0.5)
     left = [system.residual(step.time, step.q, step.v, step.a)[0] for step in path]
     assert np.abs(left).max() < 1e-11
 

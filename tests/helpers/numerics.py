@@ -15,9 +15,10 @@ def fitted_order(sizes: Sequence[float] | Array, errors: Sequence[float] | Array
 
 def central_differences(function: Callable[[Array], Array], x: Array, step: float) -> Array:
     """(m, n) Jacobian; error of order step^2 from truncation and eps / step from rounding."""
-    columns = []
-    for unit in np.eye(len(x)):
-        columns.append((function(x + step * unit) - function(x - step * unit)) / (2 * step))
+    columns = [
+        (function(x + step * unit) - function(x - step * unit)) / (2 * step)
+        for unit in np.eye(len(x))
+    ]
     return np.array(columns).T
 
 

@@ -75,7 +75,5 @@ class ElasticPendulum:
         r, angle = q
         kinetic = (v[0] ** 2 + (r * v[1]) ** 2) / 2
         return float(
-            kinetic
-            - self.gravity * r * np.cos(angle)
-            + self.stiffness * (r - self.rest) ** 2 / 2
+            kinetic - self.gravity * r * np.cos(angle) + self.stiffness * (r - self.rest) ** 2 / 2
         )

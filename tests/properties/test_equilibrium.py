@@ -1,5 +1,7 @@
 """Equilibrium of free bodies cut out anywhere, for any load."""
 
+import itertools
+
 import numpy as np
 import pytest
 from helpers.states import random_state
@@ -54,7 +56,7 @@ def test_free_body_between_two_cuts(
     joints = dry.chain.joint_height
     slices = [low, *joints[(joints > low) & (joints < high)], high]
     pull, turning = np.zeros(3), np.zeros(3)
-    for bottom, top in zip(slices, slices[1:], strict=False):
+    for bottom, top in itertools.pairwise(slices):
         body = lump(dry.turbine, bottom, top)
         weight = np.array([0, 0, -dry.turbine.site.gravity * body.mass])
         center = state.motion.points_at(np.array([body.center])).position[0]
@@ -66,14 +68,15 @@ def test_free_body_between_two_cuts(
 
 
 @settings(max_examples=15, deadline=None)
-@given(st.integers(0, 1000), st.integers(0, 7))
+@given(st.integers(0, 1000), st.integers(2, 7))
 def test_section_loads_are_continuous_across_joints(
     coarse: ow.System, seed: int, joint: int
 ) -> None:
     """In any motion, a cut just below a joint and one just above it carry the same.
 
     Below, the body's own need is that of a sliver; above, it is nearly the whole body and the next
-    joint's: the two are computed from different parts.
+    joint's: the two are computed from different parts. The pile's two joints are left out: soil
+    springs sit there.
     """
     state = random_state(coarse, seed, size=0.02)
     equations = coarse.equations()

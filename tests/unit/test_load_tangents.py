@@ -1,6 +1,6 @@
 """Tangents of every point load against central differences of its forces."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np

@@ -16,9 +16,7 @@ ADDED, DRAG = 0.9, 1.1
 OMEGA = 2 * np.pi * FREQUENCY
 K = float(wave_number(np.array([OMEGA]), DEPTH, GRAVITY)[0])
 KH = K * DEPTH
-SEA = IrregularSea(
-    np.array([AMPLITUDE]), np.array([FREQUENCY]), np.array([0.0]), DEPTH, GRAVITY
-)
+SEA = IrregularSea(np.array([AMPLITUDE]), np.array([FREQUENCY]), np.array([0.0]), DEPTH, GRAVITY)
 
 
 @dataclass(frozen=True)
@@ -44,11 +42,7 @@ def exact_drag() -> Wrench:
     return Wrench(
         line * (DEPTH / 2 + np.sinh(2 * KH) / (4 * K)),
         line
-        * (
-            DEPTH**2 / 4
-            + DEPTH * np.sinh(2 * KH) / (4 * K)
-            - (np.cosh(2 * KH) - 1) / (8 * K**2)
-        ),
+        * (DEPTH**2 / 4 + DEPTH * np.sinh(2 * KH) / (4 * K) - (np.cosh(2 * KH) - 1) / (8 * K**2)),
     )
 
 

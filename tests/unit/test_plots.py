@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from itertools import pairwise
 
 import matplotlib as mpl
 import numpy as np
@@ -17,6 +18,8 @@ from numpy.testing import assert_allclose
 import offwind_pin as ow
 from offwind_pin.display import plots
 from offwind_pin.display.style import powers_of_ten, spread, thin, to_svg
+from offwind_pin.display.wording import MINUS, TIMES
+from offwind_pin.turbines.definition import RigidBodyRNA
 
 RAMP = 4.0
 
@@ -85,18 +88,19 @@ class TestStructure:
         soil = plots.soil_springs(coarse)
         assert soil is not None
         for axes in plots.structure(coarse).axes:
-            springs = with_id(axes, "soil-spring")
-            heights = {round(float(spring.get_ydata()[0]), 6) for spring in springs}
+            (lines,) = with_id(axes, "soil-springs")
+            springs = lines.get_segments()
+            heights = {round(float(spring[0, 1]), 6) for spring in springs}
             assert len(springs) == 2 * len(soil.height)
             assert heights == {round(float(height), 6) for height in soil.height}
 
     def test_names_the_main_heights(self, coarse: ow.System) -> None:
         said = " ".join(texts(plots.structure(coarse).axes[0]))
-        for height in ("+115.63 m", "+10.00 m", "0 m", "−30.00 m", "−75.00 m"):
+        for height in ("+115.63 m", "+10.00 m", "0 m", f"{MINUS}30.00 m", f"{MINUS}75.00 m"):
             assert height in said
 
     @pytest.mark.parametrize(
-        ("foundation", "sign"), [("clamped", "clamped"), ("coupled_springs", "6×6")]
+        ("foundation", "sign"), [("clamped", "clamped"), ("coupled_springs", f"6{TIMES}6")]
     )
     def test_foundations_without_springs_along_the_pile(
         self, undamped: ow.Turbine, foundation: str, sign: str
@@ -104,7 +108,7 @@ class TestStructure:
         system = ow.build(undamped, foundation, elements=6)
         figure = plots.structure(system)
         assert len(figure.axes) == 1
-        assert not with_id(figure.axes[0], "soil-spring")
+        assert not with_id(figure.axes[0], "soil-springs")
         assert any(sign in text for text in texts(figure.axes[0]))
         assert "pile toe" not in " ".join(texts(figure.axes[0]))
 
@@ -117,8 +121,6 @@ class TestStructure:
         assert any("dry" in text for text in texts(dry))
 
     def test_draws_a_rotor_nacelle_assembly_given_as_one_body(self, undamped: ow.Turbine) -> None:
-        from offwind_pin.turbines.definition import RigidBodyRNA
-
         body = RigidBodyRNA(
             kind="rigid_body",
             mass=5e5,
@@ -127,7 +129,7 @@ class TestStructure:
         )
         turbine = undamped.model_copy(update={"rna": body})
         said = texts(plots.structure(ow.build(turbine, "clamped", elements=6)).axes[0])
-        assert any("500 t" in text and "x = −3.00" in text for text in said)
+        assert any("500 t" in text and f"x = {MINUS}3.00" in text for text in said)
 
 
 class TestModeShapes:
@@ -178,7 +180,7 @@ class TestStatics:
         legend = [text.get_text() for text in shape.get_legend().get_texts()]
         assert legend == ["clamped at the mudline", "distributed springs"]
         for state in states.values():
-            value = f"{state.tower_top_displacement[0]:+.3f} m".replace("-", "−")
+            value = f"{state.tower_top_displacement[0]:+.3f} m".replace("-", MINUS)
             assert value in texts(shape)
 
 
@@ -249,7 +251,7 @@ class TestMomentPsd:
         ]
         labels.sort(key=lambda box: box.x0)
         assert len(labels) == 4
-        assert all(a.x1 < b.x0 for a, b in zip(labels, labels[1:], strict=False))
+        assert all(a.x1 < b.x0 for a, b in pairwise(labels))
 
     def test_bands_and_peaks(self) -> None:
         axes = psd_figure(bands=((0.2, 0.3), (1.0, 1.5))).axes[0]

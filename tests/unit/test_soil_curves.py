@@ -140,7 +140,18 @@ HEADER = "depth_m,y_m,p_n_per_m\n"
         (HEADER + "0,0,7\n0,0.01,8\n", "origin"),
         (HEADER + "0,0,0\n", "two points"),
     ],
-    ids=["empty", "header only", "header", "short", "word", "nan", "sign", "order", "origin", "one"],
+    ids=[
+        "empty",
+        "header only",
+        "header",
+        "short",
+        "word",
+        "nan",
+        "sign",
+        "order",
+        "origin",
+        "one",
+    ],
 )
 def test_bad_table_is_refused(tmp_path: Path, text: str, told: str) -> None:
     """Every fault is told with the file and the place."""

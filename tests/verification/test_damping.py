@@ -60,9 +60,7 @@ def test_free_decay(undamped: ow.Turbine, oc6: ow.Turbine) -> None:
     )
     equations = system.equations()
     mass = equations.mass(state.q)
-    path = method.steps(
-        equations, state.q, velocity, count=count * steps, scale=load_scale(system)
-    )
+    path = method.steps(equations, state.q, velocity, count=count * steps, scale=load_scale(system))
     rate = np.array([shape @ mass @ step.v for step in path])
     # The period of the method is longer by (omega dt)^2 / 12, a thousandth, in phase alone.
     decrement = np.log(rate[0] / rate[count * steps]) / count

@@ -18,7 +18,7 @@ _ORDINALS = {1: "first", 2: "second", 3: "third", 4: "fourth", 5: "fifth", 6: "s
 _SHOWN = {"FA": 0, "SS": 1, "V": 2, "T": 5}
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class ModalResult:
     """Natural modes of a system about a static state, in order of frequency.
 

@@ -19,7 +19,7 @@ RELATIVE_TOLERANCE = 1e-12
 """Largest entry of the residual over :func:`load_scale`."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class StaticResult:
     """Equilibrium of a system.
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from offwind_pin.display.plots import FOUNDATION_NAMES
 from offwind_pin.display.wording import (
+    DASH,
     TIMES,
     as_given,
     count,
@@ -22,6 +23,7 @@ from offwind_pin.display.wording import (
     quantity,
     relative_difference,
     sentence,
+    significant_digits,
 )
 from offwind_pin.dynamics.sea import IrregularWaves
 from offwind_pin.dynamics.system import System
@@ -29,6 +31,7 @@ from offwind_pin.loads.synthetic_wind import AIR_DENSITY
 from offwind_pin.structure.urdf import definition_hash
 
 if TYPE_CHECKING:
+    from offwind_pin.analysis.static import StaticResult
     from offwind_pin.display.report import CaseReport, MomentSpectrum, Published, WindDescription
 
 CLOSE = 0.02
@@ -79,6 +82,7 @@ class PublishedRow:
     """A published value beside ours; bar from -1 to 1, or None without ours."""
 
     published: Published
+    ours: str
     difference: str
     bar: float | None
 
@@ -163,11 +167,21 @@ def _history_sentences(report: CaseReport) -> list[str]:
     ]
 
 
+def ordered_statics(report: CaseReport) -> dict[str, StaticResult]:
+    """The static states, the clamped one first: the others are compared with it."""
+    return dict(sorted(report.statics.items(), key=lambda item: item[0] != "clamped"))
+
+
+def _held(foundation: str) -> str:
+    """How a foundation holds the structure, as an adverb."""
+    return ("" if foundation == "clamped" else "on ") + foundation_name(foundation)
+
+
 def static_increases(report: CaseReport) -> list[str]:
-    """How much further the tower top leans on each foundation than on the first."""
+    """How much further the tower top leans on each foundation than on the first in order."""
     if len(report.statics) < 2:
         return []
-    (name, first), *others = report.statics.items()
+    (name, first), *others = ordered_statics(report).items()
     before = float(first.tower_top_displacement[0])
     if before == 0:
         return []
@@ -177,8 +191,8 @@ def static_increases(report: CaseReport) -> list[str]:
         change = 100 * (abs(now) / abs(before) - 1)
         word = "further" if change >= 0 else "less far"
         said.append(
-            f"on {foundation_name(other)} the tower top leans {abs(change):.1f} % {word} than "
-            f"{foundation_name(name)}: {fixed(now, 3)} m along x instead of {fixed(before, 3)} m"
+            f"the tower top leans {abs(change):.1f} % {word} {_held(other)} than {_held(name)}: "
+            f"{fixed(now, 3)} m along x instead of {fixed(before, 3)} m"
         )
     return said
 
@@ -210,8 +224,8 @@ def _published_sentence(report: CaseReport) -> str:
     _, farthest, ours = max(compared, key=lambda entry: entry[0])
     how = difference(ours, farthest.value, farthest.unit)
     return (
-        f"published values met within {100 * CLOSE:g} %: {close} of {len(compared)}; farthest from "
-        f"its published value is {farthest.quantity}: {how}"
+        f"published values met within {100 * CLOSE:g} %: {close} of {len(compared)}; the farthest "
+        f"is {farthest.quantity}: {how}"
     )
 
 
@@ -231,21 +245,22 @@ def _spectrum_cards(psd: MomentSpectrum | None) -> list[Card]:
 
 
 def _static_cards(report: CaseReport) -> list[Card]:
-    if report.histories is not None:
+    if report.histories is not None or (report.modes is not None and len(report.statics) < 2):
         return []
+    states = ordered_statics(report)
     found = [
         Card(
             fixed(float(result.tower_top_displacement[0]), 3),
             "m",
             f"tower top along x, {foundation_name(name)}",
         )
-        for name, result in report.statics.items()
+        for name, result in states.items()
     ]
-    if len(report.statics) == 2:
-        first, second = (abs(r.tower_top_displacement[0]) for r in report.statics.values())
+    if len(states) == 2:
+        first, second = (abs(state.tower_top_displacement[0]) for state in states.values())
         if first > 0:
             change = fixed(100 * (second / first - 1), 1, sign=True)
-            where = " over ".join(foundation_name(name) for name in reversed(report.statics))
+            where = " over ".join(foundation_name(name) for name in reversed(states))
             found.append(Card(change, "%", f"deflection, {where}"))
     return found
 
@@ -290,11 +305,12 @@ def published_rows(report: CaseReport) -> list[PublishedRow]:
     rows = []
     for row in report.published:
         if row.ours is None:
-            rows.append(PublishedRow(row, "not computed", None))
+            rows.append(PublishedRow(row, DASH, "not computed", None))
             continue
         relative = relative_difference(row.ours, row.value)
         bar = 0.0 if relative is None else float(np.clip(relative / _BAR, -1, 1))
-        rows.append(PublishedRow(row, difference(row.ours, row.value, row.unit), bar))
+        ours = number(row.ours, max(4, significant_digits(row.value)))
+        rows.append(PublishedRow(row, ours, difference(row.ours, row.value, row.unit), bar))
     return rows
 
 
@@ -328,8 +344,8 @@ def describe_sea(system: System) -> str:
         return "none (dry)"
     if isinstance(sea, IrregularWaves):
         return (
-            "irregular waves, Pierson-Moskowitz, "
-            f"Hs {as_given(sea.significant_height)} m, Tp {as_given(sea.peak_period)} s"
+            f"Pierson-Moskowitz waves, Hs {as_given(sea.significant_height)} m, "
+            f"Tp {as_given(sea.peak_period)} s"
         )
     return "still water"
 
@@ -427,7 +443,7 @@ def solver_account(report: CaseReport) -> list[tuple[str, str]]:
             f"static state, {foundation_name(name)}",
             f"{state.iterations} Newton iterations, residual {number(state.residual, 2)}",
         )
-        for name, state in report.statics.items()
+        for name, state in ordered_statics(report).items()
     ]
     if "wall_s" in summary:
         rows.append(("wall time", quantity(float(summary["wall_s"]), "s", 3)))

@@ -136,7 +136,8 @@ def statics(results: Mapping[str, StaticResult], *, water: bool = True) -> Figur
     shape.set_title("Deflected shape")
     moment.set_xlabel("fore-aft section moment (about y), MN m")
     moment.set_title("Section moment")
-    shape.legend(loc="upper left" if downwind else "lower left")
+    if len(results) > 1:
+        shape.legend(loc="upper left" if downwind else "lower left")
     _tower_top_labels(shape, results)
     return figure
 

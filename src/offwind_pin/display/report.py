@@ -21,7 +21,14 @@ from offwind_pin.analysis.modal import ModalResult
 from offwind_pin.analysis.static import StaticResult
 from offwind_pin.display import findings, plots
 from offwind_pin.display.style import to_svg
-from offwind_pin.display.wording import DASH, as_given, difference, is_mode, mode_name, number
+from offwind_pin.display.wording import (
+    DASH,
+    as_given,
+    is_mode,
+    mode_name,
+    number,
+    sentence,
+)
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.synthetic_wind import RotorOperation, SyntheticWind
 from offwind_pin.results.files import write_text
@@ -150,7 +157,7 @@ class CaseReport:
     summary : what goes into ``summary.json``; ``wall_s``, ``simulated_s``, ``realtime_factor`` and
         ``status`` are shown among the solver's account
     modes : of the system
-    statics : by name of the foundation; the first is what the others are compared with
+    statics : by name of the foundation; others are compared with the clamped one, or the first
     histories : from :func:`offwind_pin.simulate`
     published : numbers to compare with
     wind : how the tower-top load was made, where it is synthetic
@@ -194,7 +201,7 @@ def render_report(report: CaseReport) -> str:
             headline=findings.headline(report),
             cards=findings.cards(report),
             shown=shown,
-            figures={name: Markup(to_svg(drawn, name)) for name, drawn in _figures(report).items()},  # noqa: S704
+            figures=_pictures(report),
             titles=SECTIONS,
             contents={name: title for name, title in SECTIONS.items() if shown.get(name)},
         )
@@ -209,8 +216,9 @@ def _environment() -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters |= {"number": number, "as_given": as_given, "mode_name": mode_name}
-    environment.globals |= {"difference": difference, "foundation_name": findings.foundation_name}
+    words = (as_given, mode_name, number, sentence)
+    environment.filters |= {word.__name__: word for word in words}
+    environment.globals["foundation_name"] = findings.foundation_name
     return environment
 
 
@@ -221,7 +229,7 @@ def _tables(report: CaseReport) -> dict[str, Any]:
         "published": findings.published_rows(report),
         "structure": findings.structure_facts(report.system),
         "modes": findings.mode_rows(report),
-        "statics": report.statics,
+        "statics": findings.ordered_statics(report),
         "increases": findings.static_increases(report),
         "wind": findings.wind_facts(report.wind),
         "histories": report.histories is not None,
@@ -236,6 +244,11 @@ def _tables(report: CaseReport) -> dict[str, Any]:
     }
 
 
+def _pictures(report: CaseReport) -> dict[str, Markup]:
+    """SVG by the section that holds it; matplotlib has escaped the names in it."""
+    return {name: Markup(to_svg(figure, name)) for name, figure in _figures(report).items()}  # noqa: S704
+
+
 def _figures(report: CaseReport) -> dict[str, Figure]:
     """Figures by the section that holds them."""
     system, mudline = report.system, report.system.turbine.site.mudline
@@ -244,7 +257,7 @@ def _figures(report: CaseReport) -> dict[str, Figure]:
     if report.modes is not None:
         figures["modes"] = plots.mode_shapes(report.modes, mudline, water=water)
     if report.statics:
-        figures["statics"] = plots.statics(report.statics, water=water)
+        figures["statics"] = plots.statics(findings.ordered_statics(report), water=water)
     if report.histories is not None:
         figures["histories"] = plots.time_histories(report.histories)
     if report.psd is not None:

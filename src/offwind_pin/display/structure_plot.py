@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Polygon
 
@@ -189,11 +190,12 @@ def _foundation(axes: Axes, system: System, soil: SoilSprings | None, reach: flo
 def _springs(axes: Axes, height: Array, radius: float, reach: float) -> None:
     """A spring at every node, on both sides of the pile, to a wall at the end."""
     spacing = abs(height[1] - height[0])
-    for side in (-1, 1):
-        x, z = _zigzag(radius, radius + reach, amplitude=0.3 * spacing)
-        for node in height:
-            axes.plot(side * x, node + z, color=GREEN, lw=0.7, zorder=2, gid="soil-spring")
-        wall = side * (radius + reach)
+    along, across = _zigzag(radius, radius + reach, amplitude=0.3 * spacing)
+    springs = [np.column_stack([s * along, z + across]) for z in height for s in (-1, 1)]
+    lines = LineCollection(springs, colors=GREEN, linewidths=0.7, zorder=2)
+    lines.set_gid("soil-springs")
+    axes.add_collection(lines)
+    for wall in (-radius - reach, radius + reach):
         axes.plot([wall, wall], [height.min(), height.max()], color=_GROUND_LINE, lw=1.5, zorder=2)
 
 

@@ -80,7 +80,7 @@ def to_svg(figure: Figure, name: str) -> str:
     Text stays text: smaller, searchable, and set in the page's own typeface. It is laid out in
     DejaVu Sans, which is wider than what browsers usually have, so nothing collides.
 
-    name : prefix of every id, different for each figure of a page
+    name : prefix of the ids that are referred to (others go), different for each figure of a page
     """
     buffer = StringIO()
     with mpl.rc_context({"svg.fonttype": "none", "svg.hashsalt": name}):
@@ -89,7 +89,12 @@ def to_svg(figure: Figure, name: str) -> str:
     text = text[text.index("<svg") :]
     text = re.sub(r"\s*<metadata>.*?</metadata>", "", text, flags=re.DOTALL)
     text = re.sub(r'\s+xmlns(:\w+)?="[^"]*"', "", text, count=2)
-    text = re.sub(r'\bid="', f'id="{name}-', text)
+    targets = set(re.findall(r'(?:href="#|url\(#)([^")]+)', text))
+    text = re.sub(
+        r'\s+id="([^"]*)"',
+        lambda found: f' id="{name}-{found[1]}"' if found[1] in targets else "",
+        text,
+    )
     text = re.sub(r'(?:xlink:)?href="#', f'href="#{name}-', text)
     return text.replace("url(#", f"url(#{name}-").strip()
 

@@ -53,6 +53,12 @@ def as_given(value: float) -> str:
     return f"{value:.10g}".replace("-", MINUS)
 
 
+def significant_digits(value: float) -> int:
+    """How many digits a number was given with: 3 for 0.236."""
+    mantissa = f"{abs(value):.10g}".split("e")[0]
+    return len(mantissa.replace(".", "").lstrip("0"))
+
+
 def mode_name(label: str) -> str:
     """``"second fore-aft"`` for ``"FA2"``; a label of no known family as it is."""
     family = label.rstrip("0123456789")

@@ -31,7 +31,7 @@ class RootRestraint(Protocol):
         """Plain data for the sidecar."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class LinearRestraint:
     """Springs and dashpots: stiffness and damping (6, 6) in N, m, rad and s."""
 
@@ -48,7 +48,7 @@ class LinearRestraint:
         return {"stiffness": self.stiffness.tolist(), "damping": self.damping.tolist()}
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Foundation:
     """One way to hold a monopile.
 

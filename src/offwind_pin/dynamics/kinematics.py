@@ -17,7 +17,7 @@ from offwind_pin.structure.chain import Chain, NDArrayInt
 from offwind_pin.turbines.definition import Array
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class AxisPoints:
     """Material points on the axis of a chain.
 

@@ -28,7 +28,7 @@ from offwind_pin.structure.model import Scratch
 from offwind_pin.turbines.definition import Array, Turbine
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class System:
     """A turbine on its foundation in its sea, ready to be solved.
 
@@ -69,7 +69,7 @@ class System:
         return Equations(self, loads, ramp_time)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Evaluation:
     """One evaluation of the chain and its loads.
 

@@ -14,7 +14,7 @@ STRIP_LENGTH = 0.5
 """Longest strip in m: the force of the shortest wave considered (2 m) is met within 1 %."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Strips:
     """Wetted strips from the mudline to the mean water line.
 
@@ -33,7 +33,7 @@ class Strips:
         return (edges[:-1] + edges[1:]) / 2, np.diff(edges)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class AddedMass:
     """Mass per strip of the water that moves with the structure, rho Ca pi D^2/4 l, in kg.
 
@@ -48,7 +48,7 @@ class AddedMass:
         return AddedMass(strips.height, density * coefficient * displaced_volume(strips))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class MorisonForce:
     """Fluid inertia and drag of a wave on strips; the added mass stands in the mass matrix.
 

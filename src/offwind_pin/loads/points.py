@@ -13,7 +13,7 @@ import numpy as np
 from offwind_pin.turbines.definition import Array
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class PointMotion:
     """Motion of n points on the axis of the structure.
 
@@ -36,7 +36,7 @@ class PointMotion:
         )
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class PointForces:
     """Forces (n, 3) in N on the structure at the points, and moments (n, 3) in N m."""
 
@@ -44,7 +44,7 @@ class PointForces:
     moment: Array
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class PointTangents:
     """Derivatives of the forces: by position (n, 3, 3) in N/m, by velocity (n, 3, 3) in N s/m.
 

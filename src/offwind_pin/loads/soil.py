@@ -11,7 +11,7 @@ from offwind_pin.loads.soil_curves import SoilCurves, soil_curves
 from offwind_pin.turbines.definition import Array, DistributedSprings, SoilDashpot
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class SoilSprings:
     """Lateral springs and dashpots; the force opposes the horizontal displacement vector.
 

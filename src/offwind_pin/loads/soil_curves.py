@@ -42,7 +42,7 @@ def soil_curves(curve: LinearModulus | TanhCurve | CurveTable, depth: Array) -> 
     return TabulatedCurves.from_csv(curve.file, depth)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class LinearCurves:
     """p = k y; modulus (n,) in N/m2."""
 
@@ -58,7 +58,7 @@ class LinearCurves:
         return self.modulus
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class TanhCurves:
     """p = p_u tanh(k y / p_u); initial modulus (n,) in N/m2 and ultimate resistance (n,) in N/m."""
 
@@ -83,7 +83,7 @@ class TanhCurves:
         )
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class TabulatedCurves:
     """Piecewise linear curves on one grid of displacements; past its end p stays constant.
 

@@ -17,7 +17,7 @@ COMPONENTS = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
 _LARGEST_LOAD = 1e10
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class LoadHistory:
     """Samples of (Fx, Fy, Fz, Mx, My, Mz) in N and N m in the inertial frame.
 
@@ -46,7 +46,7 @@ class LoadHistory:
         return (1 - share) * self.load[upper - 1] + share * self.load[upper]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class TowerTopLoad:
     """A load history applied at the yaw bearing; its departure from the mean rises at the start.
 

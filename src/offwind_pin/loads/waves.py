@@ -40,7 +40,7 @@ def pierson_moskowitz(frequency: Array, significant_height: float, peak_period: 
     return 5 / 16 * significant_height**2 / frequency * ratio**4 * np.exp(-1.25 * ratio**4)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class IrregularSea:
     """Long-crested waves travelling along +x: a sum of regular components.
 
@@ -112,7 +112,7 @@ class IrregularSea:
         )
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class WaveKinematics:
     """Particle velocity and acceleration at n fixed points, by component.
 

@@ -31,7 +31,7 @@ class SecondOrderSystem(Protocol):
         """dr/dq and dr/dv, (n, n); they may be approximate."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Step:
     """One converged step.
 

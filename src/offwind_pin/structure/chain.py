@@ -40,7 +40,7 @@ ROOT_JOINTS = ("px", "py", "pz", "rx", "ry", "rz")
 NODE_JOINTS = ("rx", "ry", "rz")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Chain:
     """Tower and monopile as rigid bodies and joints, from the base upwards.
 

@@ -9,7 +9,7 @@ import numpy as np
 from offwind_pin.turbines.definition import Array, Blade, RigidBodyRNA, RotorNacelleRNA
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class RigidBody:
     """Mass (kg), centre of mass (3,) (m) and inertia about it (3, 3) (kg m2), axes x, y, z."""
 
