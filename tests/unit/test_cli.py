@@ -56,7 +56,7 @@ def short_case(tmp_path: Path) -> Path:
 
 def test_modes_json(offwind: Any) -> None:
     """`modes --json` has the agreed keys and numbers, dry as well as wet."""
-    code, _, _ = offwind("modes", "oc6_phase2", "--foundation", "coupled_springs", "--json")
+    code, out, _ = offwind("modes", "oc6_phase2", "--foundation", "coupled_springs", "--json")
     assert code == 0
     rows = json.loads(out)["modes"]
     assert rows[0].keys() == {
@@ -83,7 +83,7 @@ def test_modes_elements(offwind: Any) -> None:
 def test_static_json(offwind: Any) -> None:
     """`static --json` has the agreed keys; a thrust moves the top downwind."""
     argv = ["static", "oc6_phase2", "--foundation", "clamped", "--json"]
-    code, _, _ = offwind(*argv)
+    code, out, _ = offwind(*argv)
     assert code == 0
     still = json.loads(out)
     assert still.keys() >= {
@@ -117,7 +117,7 @@ def test_static_takes_a_negative_load(offwind: Any) -> None:
 
 def test_show(offwind: Any) -> None:
     """`show` prints masses, lengths and frequencies, for people and as JSON."""
-    code, _, _ = offwind("show", "oc6_phase2")
+    code, out, _ = offwind("show", "oc6_phase2")
     assert code == 0
     for text in ("1,031,930", "839,653", "-30.00", "FA1", "surrogate"):
         assert text in out.replace("Surrogate", "surrogate")
