@@ -15,8 +15,6 @@ BANDS_HZ = {"psd_sum_0p2_0p3": (0.2, 0.3), "psd_sum_1p0_1p5": (1.0, 1.5)}
 """Bands of the paper's PSD sums, about the first and the second bending mode."""
 
 PEAK_PROMINENCE_DB = 1.0
-NEARNESS = {"wave": 0.05}
-"""A peak belongs to a marked frequency within 5 % for the wave and 2 % for the others."""
 
 
 def summarise_modes(result: ModalResult) -> list[dict[str, Any]]:
@@ -63,7 +61,7 @@ def summarise_spectrum(data: xr.Dataset, spectrum: MomentSpectrum) -> dict[str, 
     """Mean and standard deviation of the moment, peaks and band sums."""
     moment = data["mudline_moment"].sel(direction="y")
     analysed = moment.where(data["time"] > data.attrs["ramp_s"], drop=True)
-    near = {name: _nearest_peak(spectrum, name) for name in spectrum.marked}
+    near = {name: spectrum.nearest_peak(at) for name, at in spectrum.marked.items()}
     found = {name: at for name, at in near.items() if at is not None}
     return {
         "mudline_moment_y_mean_Nm": float(analysed.mean()),
@@ -75,10 +73,3 @@ def summarise_spectrum(data: xr.Dataset, spectrum: MomentSpectrum) -> dict[str, 
         "psd_sum_ratio": spectrum.ratio,
         "psd_segment_s": spectrum.segment,
     }
-
-
-def _nearest_peak(spectrum: MomentSpectrum, name: str) -> float | None:
-    """The peak nearest to a marked frequency, if one lies close enough to it."""
-    at, nearness = spectrum.marked[name], NEARNESS.get(name, 0.02)
-    near = [peak for peak in spectrum.peaks if abs(peak / at - 1) <= nearness]
-    return min(near, key=lambda peak: abs(peak - at)) if near else None

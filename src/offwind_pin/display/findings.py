@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from offwind_pin.analysis.modal import mode_name
 from offwind_pin.display.plots import FOUNDATION_NAMES
 from offwind_pin.display.wording import (
     DASH,
@@ -17,7 +18,6 @@ from offwind_pin.display.wording import (
     difference,
     fixed,
     listing,
-    mode_name,
     number,
     orders_of_magnitude,
     quantity,

@@ -17,7 +17,7 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 from matplotlib.figure import Figure
 
-from offwind_pin.analysis.modal import ModalResult
+from offwind_pin.analysis.modal import ModalResult, mode_name
 from offwind_pin.analysis.static import StaticResult
 from offwind_pin.display import findings, plots
 from offwind_pin.display.style import to_svg
@@ -25,7 +25,6 @@ from offwind_pin.display.wording import (
     DASH,
     as_given,
     is_mode,
-    mode_name,
     number,
     sentence,
 )

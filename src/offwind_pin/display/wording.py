@@ -7,7 +7,6 @@ import re
 
 from offwind_pin.analysis.modal import FAMILIES
 
-_ORDINALS = ("", "first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth")
 _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 MINUS, DASH, TIMES = "\u2212", "\u2013", "\u00d7"
 _THIN_SPACE = "\u202f"
@@ -57,15 +56,6 @@ def significant_digits(value: float) -> int:
     """How many digits a number was given with: 3 for 0.236."""
     mantissa = f"{abs(value):.10g}".split("e")[0]
     return len(mantissa.replace(".", "").lstrip("0"))
-
-
-def mode_name(label: str) -> str:
-    """``"second fore-aft"`` for ``"FA2"``; a label of no known family as it is."""
-    family = label.rstrip("0123456789")
-    order = int(label[len(family) :] or 0)
-    if family not in FAMILIES or not 0 < order < len(_ORDINALS):
-        return label
-    return f"{_ORDINALS[order]} {FAMILIES[family]}"
 
 
 def is_mode(name: str) -> bool:
