@@ -38,9 +38,7 @@ def test_shapes_are_scaled_and_positive_at_their_peak(result: ow.ModalResult) ->
         assert_allclose(scaled / scaled[peak], unit, atol=1e-12)
 
 
-def test_vector_and_shape_are_one_motion(
-    coupled_wet: ow.System, result: ow.ModalResult
-) -> None:
+def test_vector_and_shape_are_one_motion(coupled_wet: ow.System, result: ow.ModalResult) -> None:
     """The mass-normalised shape is what the mode's joint displacements do to the axis."""
     q, rest = ow.static(coupled_wet).q, np.zeros(coupled_wet.nv)
     equations, step = coupled_wet.equations(), 1e-4
@@ -69,7 +67,8 @@ def test_participation_is_a_share(result: ow.ModalResult) -> None:
     assert_allclose(result.participation.sum(axis=1), 1.0, rtol=1e-9)
     families = [("FA", "SS", "T", "V")[i] for i in np.argmax(result.participation, axis=1)]
     assert [label[:-1] for label in result.label] == families
-    assert result.participation.max(axis=1).min() > 0.9
+    # The overhanging assembly couples torsion and the second side-side mode by a tenth.
+    assert result.participation.max(axis=1).min() > 0.85
 
 
 def test_number_of_modes_is_checked(coupled_wet: ow.System, result: ow.ModalResult) -> None:
