@@ -7,7 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import offwind_pin as ow
-from offwind_pin.loads.tower_top import TowerTopLoad, constant_load, write_load_history
+from offwind_pin.loads.tower_top import TowerTopLoad, constant_load
 
 GOOD = """\
 ! OpenFAST-like header
@@ -63,15 +63,6 @@ def test_ramp_acts_on_the_departure_from_the_mean(history: ow.LoadHistory) -> No
     assert_allclose(top.load(3.0, 0.0), mean)
     assert_allclose(top.load(3.0, 1.0), history.at(3.0))
     assert_allclose(top.load(3.0, 0.5), (mean + history.at(3.0)) / 2)
-
-
-def test_written_file_reads_back(history: ow.LoadHistory, tmp_path: Path) -> None:
-    """What is written is read again to nine digits."""
-    path = tmp_path / "again.txt"
-    write_load_history(history, path)
-    again = ow.read_load_history(path)
-    assert_allclose(again.load, history.load, rtol=1e-8)
-    assert_allclose(again.time, history.time, rtol=1e-8)
 
 
 ROW = "0 1 2 3 4 5 6\n"

@@ -166,3 +166,11 @@ def test_missing_table_is_refused(tmp_path: Path) -> None:
     """A table that is not there is named."""
     with pytest.raises(InputError, match="no such file"):
         TabulatedCurves.from_csv(tmp_path / "none.csv", np.zeros(1))
+
+
+def test_ground_without_strength_gives_nothing() -> None:
+    """Where p_u is zero, resistance, secant and tangent are zero, whatever the modulus."""
+    curves = TanhCurves(np.array([1e7, 1e7]), np.array([0.0, 1e6]))
+    y = np.array([0.1, 0.1])
+    assert curves.resistance(y)[0] == curves.secant(y)[0] == curves.tangent(y)[0] == 0
+    assert curves.secant(y)[1] > 0

@@ -100,3 +100,18 @@ def test_empty_bands_of_the_density_are_bridged() -> None:
     density = np.where(np.abs(frequency - 0.5) < 0.015, 1.0, 0.0)
     density[50] = 2.0
     assert_allclose(peaks(frequency, density, 0.1, 0.9), [0.5], atol=1e-9)
+
+
+def test_flat_top_is_a_peak_at_its_middle() -> None:
+    """A plateau of equal lines is one peak, without division by zero."""
+    frequency = np.linspace(0, 1, 101)
+    density = np.ones(101)
+    density[40:43] = 10.0
+    assert peaks(frequency, density, 0.0, 1.0) == pytest.approx([0.41])
+
+
+@pytest.mark.parametrize("segment", [0.0, -1.0, 0.05, 200.0])
+def test_segments_that_cannot_be_are_refused(segment: float) -> None:
+    """Shorter than two samples or longer than the signal: refused with the limits."""
+    with pytest.raises(InputError, match="segment"):
+        power_spectral_density(np.zeros(1000), 0.1, segment)

@@ -108,3 +108,13 @@ def test_load_keeps_its_direction(oc6: ow.Turbine) -> None:
     load = wind.generate(oc6.rna, duration=20.0, repeat_period=PERIOD, dt=STEP).load
     reference = steady(oc6)
     assert_allclose(load, np.outer(load[:, 0] / reference[0], reference), rtol=1e-12, atol=1e-6)
+
+
+@pytest.mark.parametrize(("dt", "period"), [(0.2, 100.0), (0.0, 100.0), (0.03, 100.0)])
+def test_sampling_that_cannot_hold_the_load_is_refused(
+    oc6: ow.Turbine, dt: float, period: float
+) -> None:
+    """A step too coarse for the harmonics, or one that does not divide the period, is refused."""
+    wind = ow.SyntheticWind(9.06, 0.388)
+    with pytest.raises(ow.InputError, match="synthetic wind"):
+        wind.generate(oc6.rna, duration=period, repeat_period=period, dt=dt)

@@ -115,11 +115,11 @@ def static(
 def load_scale(system: System) -> float:
     """Size in N m of the terms that a residual balances.
 
-    The weight of the rotor-nacelle assembly, on an arm of a tenth of the structure's height.
+    The weight of everything, on an arm of a hundredth of the structure's height.
     """
     chain = system.chain
-    weight = system.turbine.site.gravity * chain.rna.mass
-    return float(weight * (chain.top - chain.base) / 10)
+    mass = chain.rna.mass + sum(body.mass for body in chain.body)
+    return system.turbine.site.gravity * mass * (chain.top - chain.base) / 100
 
 
 def _describe(

@@ -38,7 +38,8 @@ class SectionCuts:
         self._center = AxisPoints(center, self.points.body, center - chain.origin[self.points.body])
         self._transverse = np.array([piece.transverse for piece in pieces])
         self._axial = np.array([piece.axial for piece in pieces])
-        self._loaded_above = equations.points.height[None, :] > height[:, None]
+        # A soil node at the cut belongs below it, whatever the last digit of its height.
+        self._loaded_above = equations.points.height[None, :] > height[:, None] + 1e-9
         # A load at the yaw bearing acts on the assembly above it.
         self._loaded_above |= (equations.points.height == chain.top)[None, :]
         self._gravity = np.array([0.0, 0.0, -equations.system.turbine.site.gravity])

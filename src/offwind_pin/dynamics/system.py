@@ -122,8 +122,8 @@ class Equations:
     def tangents(self, time: float, q: Array, v: Array) -> tuple[Array, Array]:
         """Stiffness dr/dq and damping dr/dv, both (nv, nv), at zero acceleration.
 
-        Exact at rest; in motion the terms of the bodies' and the water's inertia that depend on
-        velocity are left out.
+        Exact at rest in still water. In motion the terms of the bodies' and the water's inertia
+        that depend on velocity are left out, in waves the turning of the axis they act normal to.
         """
         state = self.evaluate(time, q, v, np.zeros_like(q))
         rise = smooth_ramp(time, self.ramp_time)

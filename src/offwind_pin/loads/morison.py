@@ -11,7 +11,7 @@ from offwind_pin.loads.waves import WaveKinematics
 from offwind_pin.turbines.definition import Array
 
 STRIP_LENGTH = 0.5
-"""Longest strip in m: the force of the shortest wave considered (2 m) is met within 1 %."""
+"""Longest strip in m: the force of a wave 6.5 m long is met within 1 %, of longer ones better."""
 
 
 @dataclass(frozen=True, eq=False)

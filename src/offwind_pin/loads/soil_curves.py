@@ -60,7 +60,10 @@ class LinearCurves:
 
 @dataclass(frozen=True, eq=False)
 class TanhCurves:
-    """p = p_u tanh(k y / p_u); initial modulus (n,) in N/m2 and ultimate resistance (n,) in N/m."""
+    """p = p_u tanh(k y / p_u), and nothing where p_u is zero.
+
+    initial_modulus (n,) in N/m2; ultimate_resistance (n,) in N/m.
+    """
 
     initial_modulus: Array
     ultimate_resistance: Array
@@ -69,12 +72,16 @@ class TanhCurves:
         return self.ultimate_resistance * np.tanh(self._argument(y))
 
     def tangent(self, y: Array) -> Array:
-        return self.initial_modulus / np.cosh(np.minimum(self._argument(y), 300.0)) ** 2
+        return self._stiffness / np.cosh(np.minimum(self._argument(y), 300.0)) ** 2
 
     def secant(self, y: Array) -> Array:
         x = self._argument(y)
         ratio = np.divide(np.tanh(x), x, out=1 - x**2 / 3, where=x > 1e-6)
-        return self.initial_modulus * ratio
+        return self._stiffness * ratio
+
+    @property
+    def _stiffness(self) -> Array:
+        return np.where(self.ultimate_resistance > 0, self.initial_modulus, 0.0)
 
     def _argument(self, y: Array) -> Array:
         strong = self.ultimate_resistance > 0

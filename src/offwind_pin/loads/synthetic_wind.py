@@ -12,12 +12,16 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy.optimize import brentq
 
+from offwind_pin.errors import InputError
 from offwind_pin.loads.tower_top import LoadHistory
 from offwind_pin.turbines.definition import Array, RotorNacelleRNA
 from offwind_pin.turbines.rna import rotor_apex, rotor_radius
 
 _STREAM = 2
 """Keeps the random numbers of waves and wind apart when a case gives both one seed."""
+
+_HIGHEST_FREQUENCY = 5.0
+"""Hz; turbulence and harmonics hold nothing of note beyond."""
 
 AIR_DENSITY = 1.225
 """kg/m3, the standard atmosphere at sea level."""
@@ -133,11 +137,16 @@ class SyntheticWind:
         constant tip-speed ratio, both with the square of the wind. The turbulence at harmonic n is
         a Lorentzian band about its frequency, of half width n U / (2 pi R): the eddies that give a
         pattern of n waves around the rotor have the size R / n and pass in R / (n U).
+
+        Raises
+        ------
+        InputError : a dt too coarse for the harmonics, or one that does not divide the period
         """
+        _check_sampling(dt, repeat_period)
         rotor = operate_rotor(rna, self.wind_speed, self.blade_passing_frequency)
         rng = np.random.default_rng((self.seed, _STREAM))
         count = round(repeat_period / dt)
-        frequency = np.arange(1, int(5.0 * repeat_period) + 1) / repeat_period
+        frequency = np.arange(1, int(_HIGHEST_FREQUENCY * repeat_period) + 1) / repeat_period
         gust = _realise(self._rotor_wind_spectrum(frequency, rotor), frequency, count, rng)
         ratio = 2 * gust / self.wind_speed
         time = np.arange(count) * repeat_period / count
@@ -176,6 +185,15 @@ def steady_load(rna: RotorNacelleRNA, rotor: RotorOperation) -> Array:
     force = rotor.thrust * shaft
     moment = np.cross(apex, force) + rotor.torque * shaft
     return np.concatenate([force, moment])
+
+
+def _check_sampling(dt: float, repeat_period: float) -> None:
+    if not 0 < dt < 0.5 / _HIGHEST_FREQUENCY:
+        limits = f"more than 0 and less than {0.5 / _HIGHEST_FREQUENCY} s"
+        raise InputError("synthetic wind, dt", dt, limits, "Refine it.")
+    if repeat_period <= 0 or abs(repeat_period / dt - round(repeat_period / dt)) > 1e-6:
+        multiple = f"a positive multiple of dt = {dt} s"
+        raise InputError("synthetic wind, repeat_period", repeat_period, multiple, "Adjust it.")
 
 
 def _realise(spectrum: Array, frequency: Array, count: int, rng: np.random.Generator) -> Array:

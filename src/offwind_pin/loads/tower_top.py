@@ -125,12 +125,3 @@ def read_load_history(path: Path) -> LoadHistory:
         )
     values = np.array(rows)
     return LoadHistory(values[:, 0], values[:, 1:], origin=path.name)
-
-
-def write_load_history(history: LoadHistory, path: Path) -> None:
-    """Write the seven-column file that :func:`read_load_history` reads."""
-    header = f"{history.origin}\n" + (
-        f"SURROGATE: {history.surrogate}\n" if history.surrogate else ""
-    )
-    header += "t Fx Fy Fz Mx My Mz  [s N N N N m N m N m]"
-    np.savetxt(path, np.column_stack([history.time, history.load]), fmt="%.9g", header=header)

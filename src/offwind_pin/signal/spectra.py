@@ -27,12 +27,12 @@ def power_spectral_density(values: Array, dt: float, segment: float = 200.0) -> 
 
     Raises
     ------
-    InputError : the signal is shorter than a segment
+    InputError : a segment shorter than two samples or longer than the signal
     """
     length = round(segment / dt)
-    if len(values) < length:
+    if not 2 <= length <= len(values):
         raise InputError(
-            "segment", f"{segment} s", f"at most the signal's {len(values) * dt:g} s", "Shorten it."
+            "segment", f"{segment} s", f"{2 * dt:g} to {len(values) * dt:g} s", "Choose another."
         )
     frequency, density = signal.welch(
         values - np.mean(values), fs=1 / dt, window="hann", nperseg=length, detrend=False
@@ -61,6 +61,7 @@ def peaks(
     for i in found:
         if low <= frequency[i] <= high:
             left, middle, right = level[i - 1 : i + 2]
-            shift = 0.5 * (left - right) / (left - 2 * middle + right)
+            curvature = left - 2 * middle + right
+            shift = 0.5 * (left - right) / curvature if curvature < 0 else 0.0
             places.append(float(frequency[i] + shift * (frequency[1] - frequency[0])))
     return places
