@@ -24,6 +24,7 @@ from offwind_pin.campaign.run import run_case
 from offwind_pin.campaign.summaries import summarise_modes, summarise_static
 from offwind_pin.display.animation import animate
 from offwind_pin.dynamics.sea import StillWater
+from offwind_pin.dynamics.system import System
 from offwind_pin.errors import InputError, InterruptedSimulation, SolverError
 from offwind_pin.results.files import write_text
 from offwind_pin.turbines.definition import Array
@@ -70,7 +71,8 @@ def modes_command(
     system = build(load_turbine(turbine), foundation, sea, elements=elements)
     rows = summarise_modes(modes(system, count))
     if as_json:
-        _print_json({"modes": rows})
+        about = {"turbine": system.turbine.name, "foundation": foundation, "dry": dry}
+        _print_json(about | {"surrogate": system.foundation.surrogate, "modes": rows})
         return
     water = "dry" if dry else "in still water"
     table = Table("mode", "", "frequency", "damping", "peak at", title=f"{foundation}, {water}")
@@ -83,7 +85,7 @@ def modes_command(
             f"{row['shape_peak_height_ratio']:.2f} of height",
         )
     Console().print(table)
-    _print_surrogate(system.foundation.surrogate)
+    _print_notes(system)
 
 
 @app.command("static")
@@ -102,7 +104,8 @@ def static_command(
     system = build(load_turbine(turbine), foundation, elements=elements)
     summary = summarise_static(static(system, load))
     if as_json:
-        _print_json(summary)
+        about = {"turbine": system.turbine.name, "foundation": foundation}
+        _print_json(about | {"surrogate": system.foundation.surrogate} | summary)
         return
     table = Table("quantity", "value", title=f"{foundation}, static")
     for key, value in summary.items():
@@ -124,7 +127,7 @@ def run(
     if as_json:
         _print_json(summary)
         return
-    table = Table("quantity", "value", title=definition.title)
+    table = Table("quantity", "value", title=definition.title or definition.name)
     for key, value in summary.items():
         if isinstance(value, int | float | str):
             table.add_row(key, f"{value:.6g}" if isinstance(value, float) else str(value))
@@ -243,6 +246,14 @@ def _complain(message: str) -> None:
 def _print_surrogate(surrogate: str | None) -> None:
     if surrogate:
         Console().print(f"Surrogate soil: {surrogate}", style="yellow")
+
+
+def _print_notes(system: System) -> None:
+    """What a reader of modes must know besides."""
+    _print_surrogate(system.foundation.surrogate)
+    if system.turbine.structural_damping is None:
+        text = "No structural damping: the turbine file has no structural_damping block."
+        Console().print(text, style="yellow")
 
 
 def _print_overview(facts: Overview) -> None:

@@ -146,7 +146,7 @@ TURBINE_FAULTS: dict[str, tuple[Callable[[Definition], None], list[str]]] = {
     ),
     "unknown kind of curve": (
         _set(*SPRINGS, "curve", "kind", to="tahn"),
-        ["distributed_springs.curve", "'tanh'"],
+        ["distributed_springs.curve.kind", "linear, tanh, table"],
     ),
     "curve without stiffness": (
         _set(*SPRINGS, "curve", "initial_modulus_n_per_m2", to={"gradient": 0}),

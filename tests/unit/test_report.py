@@ -157,7 +157,7 @@ class TestContents:
         assert sections(html) == list(SECTIONS)
 
     def test_sections_without_data_are_left_out(self, bare: CaseReport) -> None:
-        assert sections(render_report(bare)) == ["structure", "provenance"]
+        assert sections(render_report(bare)) == ["structure", "damping", "provenance"]
 
     @pytest.mark.parametrize(
         ("field", "nothing", "gone"),
@@ -179,7 +179,7 @@ class TestContents:
     def test_the_table_of_contents_names_what_is_there(self, bare: CaseReport) -> None:
         text = render_report(bare)
         links = re.findall(r'href="#([a-z]+)">', text)
-        assert links == ["structure", "provenance"]
+        assert links == ["structure", "damping", "provenance"]
 
     def test_key_numbers(self, full: CaseReport, page: Page) -> None:
         assert full.modes is not None

@@ -90,7 +90,7 @@ def static(
     """
     acting = [*loads]
     if tower_top_load is not None:
-        acting.append(constant_load(system.chain.top, np.asarray(tower_top_load, dtype=float)))
+        acting.append(constant_load(system.chain.top, tower_top_load))
     equations = system.equations(acting, ramp_time=np.inf)
     rest = np.zeros(system.nv)
     scale = load_scale(system)

@@ -14,10 +14,11 @@ from offwind_pin.dynamics.section_loads import SectionCuts
 from offwind_pin.dynamics.system import Equations, System, smooth_ramp
 from offwind_pin.errors import InputError, InterruptedSimulation, SolverError
 from offwind_pin.loads.points import PointLoad
-from offwind_pin.loads.tower_top import LoadHistory, TowerTopLoad
+from offwind_pin.loads.tower_top import LoadHistory, TowerTopLoad, constant_load
 from offwind_pin.results.dataset import make_dataset
 from offwind_pin.solve.generalized_alpha import GeneralizedAlpha, Step, StepFailed
 from offwind_pin.structure.urdf import definition_hash
+from offwind_pin.turbines.definition import Array
 
 Progress = Callable[[float], None]
 
@@ -26,7 +27,7 @@ def simulate(
     system: System,
     duration: float,
     dt: float = 0.02,
-    loads: Sequence[PointLoad | LoadHistory] = (),
+    loads: Sequence[PointLoad | LoadHistory | Array] = (),
     *,
     ramp: float = 0.0,
     output_dt: float | None = None,
@@ -43,8 +44,8 @@ def simulate(
     ----------
     duration : simulated time in s, the ramp included
     dt : time step in s
-    loads : point loads, or histories applied at the yaw bearing; a history's mean is taken over the
-        time after the ramp
+    loads : what acts: at the yaw bearing a constant load (6,) Fx, Fy, Fz, Mx, My, Mz in N and N m
+        or a history, whose mean is taken over the time after the ramp; or point loads of one's own
     ramp : seconds over which the fluctuations rise
     output_dt : interval of the output in s, a multiple of dt; by default every step
     spectral_radius : numerical damping at infinite frequency, 1 for none
@@ -176,8 +177,10 @@ def _check_times(duration: float, dt: float, ramp: float, output_dt: float | Non
 
 
 def _at_yaw_bearing(
-    system: System, load: PointLoad | LoadHistory, ramp: float, duration: float
+    system: System, load: PointLoad | LoadHistory | Array, ramp: float, duration: float
 ) -> PointLoad:
+    if isinstance(load, np.ndarray):
+        return constant_load(system.chain.top, load)
     if not isinstance(load, LoadHistory):
         return load
     if load.time[0] > 0 or load.time[-1] < duration - 1e-9:

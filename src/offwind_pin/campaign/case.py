@@ -53,10 +53,10 @@ class TowerTopLoadFile(Definition):
 
 
 class StaticAnalysis(Definition):
-    """Equilibrium under gravity, beside that on another foundation."""
+    """Equilibrium under gravity, if asked for beside that on another foundation."""
 
     kind: Literal["static"]
-    compare_with: FoundationName
+    compare_with: FoundationName | None = None
 
 
 class ModalAnalysis(Definition):
@@ -101,7 +101,7 @@ class Case(Definition):
     """One load case."""
 
     name: Annotated[str, Field(pattern=r"^[A-Za-z0-9._-]+$")]
-    title: str
+    title: str = ""
     description: str = ""
     turbine: str
     foundation: FoundationName

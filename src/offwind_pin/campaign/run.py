@@ -108,30 +108,22 @@ def _solve(case: Case, turbine: Turbine, folder: Path, progress: Progress | None
 
 
 def _solve_static(case: Case, turbine: Turbine, analysis: StaticAnalysis) -> CaseResult:
-    names: tuple[str, str] = (case.foundation, analysis.compare_with)
-    systems = {
-        name: build(turbine, name, _sea(case, 0.0), elements=case.elements) for name in names
-    }
-    statics = {name: static(system) for name, system in systems.items()}
-    main, other = statics[case.foundation], statics[analysis.compare_with]
-    reference = float(other.tower_top_displacement[0])
-    summary = summarise_static(main) | {
-        "foundation": case.foundation,
-        f"{analysis.compare_with}_tower_top_x_m": reference,
-        f"increase_over_{analysis.compare_with}_percent": 100
-        * (float(main.tower_top_displacement[0]) / reference - 1),
-    }
-    return CaseResult(
-        summary,
-        static_to_dataset(systems[case.foundation], main),
-        systems[case.foundation],
-        None,
-        statics,
-    )
+    system = _build(case, turbine, case.foundation)
+    state = static(system)
+    summary = summarise_static(state) | {"foundation": case.foundation}
+    statics: dict[str, StaticResult] = {case.foundation: state}
+    if analysis.compare_with is not None:
+        other = static(_build(case, turbine, analysis.compare_with))
+        reference = float(other.tower_top_displacement[0])
+        increase = float(state.tower_top_displacement[0]) / reference - 1
+        statics[analysis.compare_with] = other
+        summary[f"{analysis.compare_with}_tower_top_x_m"] = reference
+        summary[f"increase_over_{analysis.compare_with}_percent"] = 100 * increase
+    return CaseResult(summary, static_to_dataset(system, state), system, None, statics)
 
 
 def _solve_modes(case: Case, turbine: Turbine, analysis: ModalAnalysis) -> CaseResult:
-    system = build(turbine, case.foundation, _sea(case, 0.0), elements=case.elements)
+    system = _build(case, turbine, case.foundation)
     state = static(system)
     result = modes(system, analysis.count, state)
     table = summarise_modes(result)
@@ -160,7 +152,7 @@ def _solve_transient(
     folder: Path,
     progress: Progress | None,
 ) -> CaseResult:
-    system = build(turbine, case.foundation, _sea(case, analysis.duration), elements=case.elements)
+    system = _build(case, turbine, case.foundation, analysis.duration)
     history = _tower_top_history(case, turbine, analysis, folder)
     loads = [] if history is None else [history]
     data = simulate(
@@ -192,6 +184,14 @@ def _solve_transient(
         "largest_residual": float(data["solver_residual"].max()),
     }
     return CaseResult(summary, data, system, result, {case.foundation: state}, spectrum)
+
+
+def _build(case: Case, turbine: Turbine, foundation: str, duration: float = 0.0) -> System:
+    """The case's system on a foundation; only distributed springs have a pile to divide."""
+    elements = case.elements
+    if isinstance(elements, dict) and foundation != "distributed_springs":
+        elements = {region: count for region, count in elements.items() if region != "pile"}
+    return build(turbine, foundation, _sea(case, duration), elements=elements)
 
 
 def _sea(case: Case, duration: float) -> Sea | None:
@@ -287,7 +287,7 @@ def _write(case: Case, turbine: Turbine, out: Path, result: CaseResult) -> None:
     histories = result.data if isinstance(case.analysis, TransientAnalysis) else None
     report = CaseReport(
         name=case.name,
-        title=case.title,
+        title=case.title or case.name,
         description=case.description,
         system=result.system,
         summary=result.summary,

@@ -60,12 +60,20 @@ def moment_spectrum(data: xr.Dataset, segment: float, marked: dict[str, float]) 
 def summarise_spectrum(data: xr.Dataset, spectrum: MomentSpectrum) -> dict[str, Any]:
     """Mean and standard deviation of the moment, peaks and band sums."""
     moment = data["mudline_moment"].sel(direction="y")
-    analysed = moment.where(data["time"] > data.attrs["ramp_s"], drop=True)
+    after_ramp = data["time"] > data.attrs["ramp_s"]
+    analysed = moment.where(after_ramp, drop=True)
+    top = data["tower_top_displacement"].sel(direction="x").where(after_ramp, drop=True)
     near = {name: spectrum.nearest_peak(at) for name, at in spectrum.marked.items()}
     found = {name: at for name, at in near.items() if at is not None}
     return {
         "mudline_moment_y_mean_Nm": float(analysed.mean()),
         "mudline_moment_y_std_Nm": float(analysed.std()),
+        "mudline_moment_y_min_Nm": float(analysed.min()),
+        "mudline_moment_y_max_Nm": float(analysed.max()),
+        "tower_top_x_mean_m": float(top.mean()),
+        "tower_top_x_std_m": float(top.std()),
+        "tower_top_x_min_m": float(top.min()),
+        "tower_top_x_max_m": float(top.max()),
         "psd_peaks_hz": sorted(set(found.values())),
         "psd_peaks_near_hz": found,
         **{f"psd_peak_{name}_hz": at for name, at in found.items()},

@@ -12,7 +12,6 @@ from offwind_pin.analysis.modal import mode_name
 from offwind_pin.display.plots import FOUNDATION_NAMES
 from offwind_pin.display.wording import (
     DASH,
-    TIMES,
     as_given,
     count,
     difference,
@@ -31,6 +30,8 @@ from offwind_pin.loads.synthetic_wind import AIR_DENSITY
 from offwind_pin.structure.urdf import definition_hash
 
 if TYPE_CHECKING:
+    import xarray as xr
+
     from offwind_pin.analysis.static import StaticResult
     from offwind_pin.display.report import CaseReport, MomentSpectrum, Published, WindDescription
 
@@ -108,8 +109,8 @@ def headline(report: CaseReport) -> list[str]:
     """The outcome in a few sentences, the most telling first."""
     said = [
         _status_sentence(report),
-        *_spectrum_sentences(report.psd),
-        *([] if report.psd else _history_sentences(report)),
+        *_history_sentences(report),
+        *_spectrum_sentences(report),
         *static_increases(report),
         *_mode_sentences(report),
         _published_sentence(report),
@@ -119,10 +120,12 @@ def headline(report: CaseReport) -> list[str]:
 
 def cards(report: CaseReport) -> list[Card]:
     """Up to four key numbers, those of the richest analysis of the case."""
-    chosen = _spectrum_cards(report.psd) + _static_cards(report) + _mode_cards(report)
-    if report.histories is not None and "realtime_factor" in report.summary:
-        factor = number(float(report.summary["realtime_factor"]), 3)
-        chosen.insert(3, Card(factor, TIMES, "simulated time over wall time"))
+    chosen = [
+        *_history_cards(report),
+        *_spectrum_cards(report.psd),
+        *_static_cards(report),
+        *_mode_cards(report),
+    ]
     return chosen[:4]
 
 
@@ -136,15 +139,18 @@ def _status_sentence(report: CaseReport) -> str:
     return f"this run is {status}: it ends at {number(end)} s, and what follows is what there is"
 
 
-def _spectrum_sentences(psd: MomentSpectrum | None) -> list[str]:
+def _spectrum_sentences(report: CaseReport) -> list[str]:
+    psd = report.psd
     if psd is None:
         return []
     said = []
     peaks = [psd.peak_in(band)[1] for band in psd.bands[:2]]
     found = [f"{peak:.3f} Hz" for peak in peaks if peak is not None]
     if found:
-        said.append(f"the fore-aft moment at the mudline peaks at {listing(found)}")
-    if psd.ratio is not None:
+        said.append(f"in the bands of the bending modes its spectrum peaks at {listing(found)}")
+    if psd.ratio is not None and any(
+        row.quantity.startswith("PSD sum") for row in report.published
+    ):
         first, second = psd.bands[:2]
         said.append(
             f"between {first.low:g} and {first.high:g} Hz it has {number(psd.ratio, 3)} times the "
@@ -229,6 +235,18 @@ def _published_sentence(report: CaseReport) -> str:
     )
 
 
+def _history_cards(report: CaseReport) -> list[Card]:
+    data = report.analysed
+    if data is None:
+        return []
+    moment = float(abs(_moment(data, "y")).max())
+    top = float(abs(data.tower_top_displacement.sel(direction="x")).max())
+    return [
+        Card(number(moment, 3), "MN m", "largest fore-aft moment at the mudline"),
+        Card(number(top, 3), "m", "largest tower-top displacement along x"),
+    ]
+
+
 def _spectrum_cards(psd: MomentSpectrum | None) -> list[Card]:
     if psd is None:
         return []
@@ -238,9 +256,6 @@ def _spectrum_cards(psd: MomentSpectrum | None) -> list[Card]:
         if peak is not None:
             where = f"by the {mode_name(mode)} mode" if mode else f"in {band.name}"
             found.append(Card(f"{peak:.3f}", "Hz", f"peak of the mudline moment {where}"))
-    if psd.ratio is not None:
-        names = " over ".join(band.name for band in psd.bands[:2])
-        found.append(Card(number(psd.ratio, 3), TIMES, f"PSD sum {names}"))
     return found
 
 
@@ -299,6 +314,31 @@ def surrogates(report: CaseReport) -> list[Surrogate]:
         if text not in ("none", "", soil)
     ]
     return found
+
+
+def statistics(report: CaseReport) -> list[tuple[str, str, list[float]]]:
+    """Name, unit, and mean, standard deviation, smallest and largest value after the ramp."""
+    data = report.analysed
+    if data is None:
+        return []
+    rows = [
+        ("tower-top displacement along x", "m", data.tower_top_displacement.sel(direction="x")),
+        ("tower-top displacement along y", "m", data.tower_top_displacement.sel(direction="y")),
+        ("fore-aft moment at the mudline (y)", "MN m", _moment(data, "y")),
+        ("side-side moment at the mudline (x)", "MN m", _moment(data, "x")),
+        ("shear at the mudline along x", "MN", data.mudline_force.sel(direction="x") / 1e6),
+        ("applied tower-top force along x", "MN", data.tower_top_load.sel(component="Fx") / 1e6),
+        ("wave elevation", "m", data.wave_elevation),
+    ]
+    return [
+        (name, unit, [float(v) for v in (x.mean(), x.std(), x.min(), x.max())])
+        for name, unit, x in rows
+    ]
+
+
+def _moment(data: xr.Dataset, direction: str) -> xr.DataArray:
+    """Moment at the mudline in MN m."""
+    return data.mudline_moment.sel(direction=direction) / 1e6
 
 
 def published_rows(report: CaseReport) -> list[PublishedRow]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -76,7 +77,20 @@ class TowerTopLoad:
 
 
 def constant_load(yaw_bearing: float, load: Array) -> TowerTopLoad:
-    """A load (6,) in N and N m that does not change."""
+    """A load (6,) Fx, Fy, Fz, Mx, My, Mz in N and N m that does not change.
+
+    Raises
+    ------
+    InputError : not six finite numbers
+    """
+    load = np.asarray(load, dtype=float)
+    if load.shape != (6,) or not np.all(np.isfinite(load)):
+        raise InputError(
+            "tower-top load",
+            load.tolist(),
+            "six finite numbers Fx, Fy, Fz, Mx, My, Mz in N and N m",
+            "Give all six.",
+        )
     history = LoadHistory(np.array([0.0]), load[None, :], origin="constant")
     return TowerTopLoad(yaw_bearing, history, load)
 
@@ -124,4 +138,5 @@ def read_load_history(path: Path) -> LoadHistory:
             str(path), f"{len(rows)} rows", "two rows or more", "Is the file complete?"
         )
     values = np.array(rows)
-    return LoadHistory(values[:, 0], values[:, 1:], origin=path.name)
+    digest = hashlib.sha256(text.encode()).hexdigest()
+    return LoadHistory(values[:, 0], values[:, 1:], origin=f"{path.name} (SHA-256 {digest})")

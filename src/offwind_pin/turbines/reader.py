@@ -126,7 +126,8 @@ def _input_error(
     first = found[0]
     location = _without_union_tags(first["loc"], data)
     field = ".".join(str(part) for part in location) or "the file"
-    more = f" ({len(found) - 1} more in this file.)" if len(found) > 1 else ""
+    others = [".".join(map(str, _without_union_tags(item["loc"], data))) for item in found[1:]]
+    more = f" (More to mend in this file: {_enumerate(others)}.)" if others else ""
     where = f"{path}, field {field}"
     if first["type"] == "extra_forbidden":
         known = _known_keys(model, location[:-1])
@@ -137,8 +138,19 @@ def _input_error(
         return InputError(where, "nothing", "a value (the field is required)", "Add it." + more)
     message = first["msg"].removeprefix("Value error, ")
     context = first.get("ctx", {})
+    if first["type"].startswith("union_tag"):
+        where += f".{str(context['discriminator']).strip(chr(39))}"
+        received = context.get("tag", "nothing")
+        allowed = context.get("expected_tags", "a kind").replace("'", "")
+        return InputError(where, received, allowed, "Choose one of them." + more)
     remedy = "Check the unit named in the key." if {"ge", "gt", "le", "lt"} & set(context) else ""
     return InputError(where, first["input"], message, (remedy or "Correct the value.") + more)
+
+
+def _enumerate(places: list[str], most: int = 5) -> str:
+    shown = list(dict.fromkeys(places))
+    rest = f" and {len(shown) - most} more" if len(shown) > most else ""
+    return ", ".join(shown[:most]) + rest
 
 
 def _without_union_tags(location: tuple[int | str, ...], data: object) -> tuple[int | str, ...]:
@@ -175,11 +187,12 @@ def _below(schema: Schema, node: Schema, part: int | str) -> list[Schema]:
     """The schemas of an item or a key."""
     if isinstance(part, int):
         return [choice["items"] for choice in _choices(schema, node, "items")]
+    named = _choices(schema, node, "additionalProperties")
     return [
         choice["properties"][part]
         for choice in _choices(schema, node)
         if part in choice["properties"]
-    ]
+    ] + [choice["additionalProperties"] for choice in named if choice["additionalProperties"]]
 
 
 def _choices(schema: Schema, node: Schema, having: str = "properties") -> list[Schema]:
