@@ -1,0 +1,87 @@
+"""What the README and the docs show works as printed."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import offwind_pin as ow
+from offwind_pin.campaign.case import load_case
+from offwind_pin.campaign.run import run_case
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def _blocks(page: str, language: str) -> list[str]:
+    """Fenced blocks of one language, in order."""
+    return re.findall(rf"```{language}\n(.*?)```", (ROOT / page).read_text(), flags=re.DOTALL)
+
+
+@pytest.fixture
+def written(tmp_path: Path) -> Path:
+    """A folder with the files of the docs, as a reader would write them."""
+    turbine = _blocks("docs/turbine_file.md", "yaml")[0]
+    (tmp_path / "my_turbine.yaml").write_text(turbine)
+    (tmp_path / "curves.csv").write_text(_blocks("docs/turbine_file.md", "csv")[0])
+    (tmp_path / "my_case.yaml").write_text(_blocks("docs/case_file.md", "yaml")[0])
+    (tmp_path / "my_load.txt").write_text(_blocks("docs/case_file.md", "text")[0])
+    return tmp_path
+
+
+def test_readme_example(capsys: Any) -> None:
+    """The ten lines run; the history stays at the static moment under the load."""
+    scope: dict[str, Any] = {}
+    exec(_blocks("README.md", "python")[0], scope)  # our own text
+    frequencies, moment = capsys.readouterr().out.strip().splitlines()
+    assert "'FA1': 0.24" in frequencies
+    assert float(moment) == pytest.approx(scope["state"].mudline_load[4] / 1e6, rel=1e-6)
+    assert float(moment) > 100
+
+
+def test_turbine_of_the_docs(written: Path) -> None:
+    """The complete file: published first frequency about 0.25 Hz without gravity, a little less with."""
+    turbine = ow.load_turbine(written / "my_turbine.yaml")
+    modes = ow.modes(ow.build(turbine, "coupled_springs", ow.StillWater()))
+    assert modes.frequency_hz[modes.index("FA1")] == pytest.approx(0.2403, rel=5e-3)
+    assert modes.damping_ratio[modes.index("FA1")] == pytest.approx(0.01, rel=1e-6)
+
+
+def test_table_of_the_docs(written: Path) -> None:
+    """The CSV table takes the place of the tanh curve; its content is part of the hash."""
+    path = written / "my_turbine.yaml"
+    text = path.read_text()
+    tanh = re.search(r"    curve:\n(?:      .*\n)+", text)
+    assert tanh
+    path.write_text(text.replace(tanh[0], "    curve: {kind: table, file: curves.csv}\n"))
+    hashes = []
+    for factor in ("2.0e7", "1.0e7"):
+        table = written / "curves.csv"
+        table.write_text(table.read_text().replace("2.0e7", factor))
+        turbine = ow.load_turbine(path)
+        modes = ow.modes(ow.build(turbine, "distributed_springs", ow.StillWater()))
+        assert 0.2 < modes.frequency_hz[modes.index("FA1")] < 0.26
+        ow.export_urdf(ow.build(turbine, "distributed_springs"), written / "urdf")
+        sidecar = (written / "urdf" / "my_turbine.json").read_text()
+        hashes.append(re.findall(r'"definition_sha256": "(\w+)"', sidecar)[0])
+    assert hashes[0] != hashes[1]
+
+
+def test_case_of_the_docs(written: Path) -> None:
+    """The case file with a load file of one's own runs to a report."""
+    case, folder = load_case(written / "my_case.yaml")
+    short = case.analysis.model_copy(update={"dt": 0.04, "output_dt": 0.08})
+    summary = run_case(case.model_copy(update={"analysis": short}), folder, written / "out")
+    assert summary["status"] == "complete"
+    assert summary["mudline_moment_y_mean_Nm"] > 4e7
+    assert "my_load.txt" in (written / "out" / "report.html").read_text()
+
+
+def test_links_lead_somewhere() -> None:
+    """Every relative link of the pages names a file that is there."""
+    pages = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *(ROOT / "docs").glob("*.md")]
+    for page in pages:
+        for target in re.findall(r"\]\((?!https?://|#)([^)#]+)", page.read_text()):
+            assert (page.parent / target).exists(), f"{page.name}: {target}"
