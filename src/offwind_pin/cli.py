@@ -19,9 +19,10 @@ from offwind_pin.analysis.modal import mode_name, modes
 from offwind_pin.analysis.static import static
 from offwind_pin.campaign.case import load_case
 from offwind_pin.campaign.export import export_urdf
+from offwind_pin.campaign.output import check_writable
 from offwind_pin.campaign.overview import Overview, overview
 from offwind_pin.campaign.run import run_case
-from offwind_pin.campaign.summaries import summarise_modes, summarise_static
+from offwind_pin.campaign.summaries import summarise_damping, summarise_modes, summarise_static
 from offwind_pin.display.animation import animate
 from offwind_pin.dynamics.sea import StillWater
 from offwind_pin.dynamics.system import System
@@ -30,7 +31,7 @@ from offwind_pin.results.files import write_text
 from offwind_pin.turbines.definition import Array
 from offwind_pin.turbines.reader import load_turbine
 
-EXIT_INPUT, EXIT_SOLVER, EXIT_INTERRUPTED = 2, 3, 130
+EXIT_SYSTEM, EXIT_INPUT, EXIT_SOLVER, EXIT_INTERRUPTED = 1, 2, 3, 130
 
 app = typer.Typer(
     help="Structural dynamics of monopile offshore wind turbines.",
@@ -63,16 +64,22 @@ def modes_command(
     foundation: FoundationOption = "distributed_springs",
     dry: Annotated[bool, typer.Option("--dry", help="Without water.")] = False,  # noqa: FBT002
     elements: ElementsOption = None,
-    count: Annotated[int, typer.Option(help="Number of modes.")] = 8,
+    count: Annotated[int | None, typer.Option(help="Number of modes, by default 8.")] = None,
     as_json: JsonOption = False,  # noqa: FBT002
 ) -> None:
     """Natural frequencies about the static state, in still water."""
     sea = None if dry else StillWater()
     system = build(load_turbine(turbine), foundation, sea, elements=elements)
-    rows = summarise_modes(modes(system, count))
+    result = modes(system, min(8, system.nv) if count is None else count)
+    rows = summarise_modes(result)
     if as_json:
-        about = {"turbine": system.turbine.name, "foundation": foundation, "dry": dry}
-        _print_json(about | {"surrogate": system.foundation.surrogate, "modes": rows})
+        about: dict[str, Any] = {
+            "turbine": system.turbine.name,
+            "foundation": foundation,
+            "dry": dry,
+        }
+        about |= {"surrogate": system.foundation.surrogate}
+        _print_json(about | {"structural_damping": summarise_damping(system), "modes": rows})
         return
     water = "dry" if dry else "in still water"
     table = Table("mode", "", "frequency", "damping", "peak at", title=f"{foundation}, {water}")
@@ -147,7 +154,7 @@ def animate_command(
     """Write a self-contained page with a mode moving."""
     _check_target(html)
     system = build(load_turbine(turbine), foundation, None if dry else StillWater())
-    write_text(html, animate(system, modes(system, 12), mode))
+    write_text(html, animate(system, modes(system, min(12, system.nv)), mode.upper()))
     Console().print(f"Wrote {html}", soft_wrap=True)
 
 
@@ -159,7 +166,7 @@ def urdf(
     elements: ElementsOption = None,
 ) -> None:
     """Write the URDF that Pinocchio runs, its meshes, and the sidecar with springs and dampers."""
-    _check_directory(out)
+    check_writable(out)
     system = build(load_turbine(turbine), foundation, elements=elements)
     for path in export_urdf(system, out):
         Console().print(f"Wrote {path}", soft_wrap=True)
@@ -178,6 +185,9 @@ def main() -> None:
     except InterruptedSimulation as stopped:
         _complain(f"offwind: {stopped}; the results so far are kept")
         sys.exit(EXIT_INTERRUPTED)
+    except OSError as error:
+        _complain(f"offwind: {error.strerror or error}: {error.filename or 'while writing'}")
+        sys.exit(EXIT_SYSTEM)
 
 
 class _simulation_progress:  # noqa: N801
@@ -228,11 +238,7 @@ def _six_numbers(text: str) -> Array:
 def _check_target(path: Path) -> None:
     if path.is_dir():
         raise InputError("--html", str(path), "a file name", "Name a file, such as fa2.html.")
-
-
-def _check_directory(path: Path) -> None:
-    if path.exists() and not path.is_dir():
-        raise InputError("--out", str(path), "a directory", "Name another place.")
+    check_writable(path.parent)
 
 
 def _print_json(data: dict[str, Any]) -> None:
@@ -251,9 +257,15 @@ def _print_surrogate(surrogate: str | None) -> None:
 def _print_notes(system: System) -> None:
     """What a reader of modes must know besides."""
     _print_surrogate(system.foundation.surrogate)
-    if system.turbine.structural_damping is None:
+    damping = summarise_damping(system)
+    if not damping["asked"]:
         text = "No structural damping: the turbine file has no structural_damping block."
         Console().print(text, style="yellow")
+    for label, asked in damping["asked"].items():
+        achieved = damping["achieved"][label]
+        if abs(achieved / asked - 1) > 0.05:
+            text = f"Damping of {label}: {asked:.4g} asked for, {achieved:.4g} achieved."
+            Console().print(text, style="yellow")
 
 
 def _print_overview(facts: Overview) -> None:

@@ -70,6 +70,6 @@ class InterruptedSimulation(OffwindError):
         super().__init__(f"stopped by the user at t = {time:.6g} s")
 
 
-def _shorten(value: object, limit: int = 120) -> str:
-    text = repr(value)
+def _shorten(value: object, limit: int = 240) -> str:
+    text = value if isinstance(value, str) and " " in value else repr(value)
     return text if len(text) <= limit else text[: limit - 3] + "..."

@@ -177,6 +177,28 @@ TURBINE_FAULTS: dict[str, tuple[Callable[[Definition], None], list[str]]] = {
         _drop("rna", "blade", "mass_density_kg_per_m", 3),
         ["rna.blade", "span_fraction", "one density for each"],
     ),
+    "heights in mm": (_set(*STATION, "z_m", to=41520), ["z_m", "41520", "unit"]),
+    "name that leaves the folder": (_set("name", to="../evil"), ["field name", "../evil"]),
+    "member of a kept name": (_set("members", 1, "name", to="rna"), ["members are named", "rna"]),
+    "weightless blades": (
+        _set("rna", "blade", "mass_density_kg_per_m", to=[0.0] * 30),
+        ["rna", "weighs nothing"],
+    ),
+    "nacelle inertia about its own centre": (
+        _set("rna", "nacelle_yaw_inertia_kg_m2", to=1e6),
+        ["nacelle_yaw_inertia_kg_m2", "about the yaw axis"],
+    ),
+    "inertia of a mass that is not round": (
+        _set(
+            "point_masses",
+            to=[{"name": "a", "z_m": 10, "mass_kg": 1, "inertia_kg_m2": [2e3, 0, 0]}],
+        ),
+        ["point_masses.0", "twice"],
+    ),
+    "damping ratio of zero": (
+        _set("structural_damping", "ratios_of_critical", "FA1", to=0),
+        ["ratios_of_critical.FA1", "greater than 0"],
+    ),
     "missing table of curves": (_table_of_curves, ["curves.csv", "no such file"]),
 }
 
@@ -218,6 +240,8 @@ TEXT_FAULTS = {
     "truncated file": ("site: {water_depth_m: 30,\n", "line"),
     "key given twice": ("name: a\nname: b\n", "given twice"),
     "a list": ("- 1\n- 2\n", "mapping"),
+    "a date that is none": ("name: 2001-99-99\n", "valid YAML"),
+    "nested too deep": ("a: " + "[" * 3000 + "\n", "valid YAML"),
     "a Python object": ("name: !!python/object/apply:os.system ['true']\n", "valid YAML"),
 }
 
@@ -310,6 +334,12 @@ CASE_FAULTS: dict[str, tuple[Callable[[Definition], None], str]] = {
     "step that does not divide": (_set("analysis", "dt_s", to=0.7), "multiple of dt"),
     "segment longer than the window": (_set("analysis", "psd_segment_s", to=900), "psd_segment_s"),
     "wave height in cm": (_set("sea", "significant_height_m", to=125), "unit"),
+    "huge seed": (_set("seed", to=10**30), "seed"),
+    "output too coarse": (_set("analysis", "output_dt_s", to=1.0), "output_dt_s"),
+    "load that a static case would ignore": (
+        _set("analysis", to={"kind": "static", "compare_with": "clamped"}),
+        "tower_top_load",
+    ),
     "negative seed": (_set("seed", to=-1), "seed"),
 }
 

@@ -110,7 +110,7 @@ def test_load_keeps_its_direction(oc6: ow.Turbine) -> None:
     assert_allclose(load, np.outer(load[:, 0] / reference[0], reference), rtol=1e-12, atol=1e-6)
 
 
-@pytest.mark.parametrize(("dt", "period"), [(0.2, 100.0), (0.0, 100.0), (0.03, 100.0)])
+@pytest.mark.parametrize(("dt", "period"), [(0.2, 100.0), (0.0, 100.0), (0.02, 0.0), (0.02, float("nan"))])
 def test_sampling_that_cannot_hold_the_load_is_refused(
     oc6: ow.Turbine, dt: float, period: float
 ) -> None:
@@ -118,3 +118,13 @@ def test_sampling_that_cannot_hold_the_load_is_refused(
     wind = ow.SyntheticWind(9.06, 0.388)
     with pytest.raises(ow.InputError, match="synthetic wind"):
         wind.generate(oc6.rna, duration=period, repeat_period=period, dt=dt)
+
+
+@pytest.mark.parametrize("period", [1.0, 3.05, 100.0])
+def test_mean_over_any_period_is_the_steady_load(oc6: ow.Turbine, period: float) -> None:
+    """Whatever the period, whole samples fit it, and its mean is the steady load."""
+    wind = ow.SyntheticWind(9.06, 0.388)
+    history = wind.generate(oc6.rna, duration=2 * period, repeat_period=period)
+    steady = steady_load(oc6.rna, operate_rotor(oc6.rna, 9.06, 0.388))
+    assert_allclose(history.mean(0.0, period), steady, rtol=1e-9, atol=1e-3)
+    assert history.time[-1] >= 2 * period - 1e-9

@@ -64,6 +64,10 @@ def _assemble(
     turbine: Turbine, foundation: str, sea: Sea | None, elements: Elements, stiffness: Stiffness
 ) -> System:
     """The system without structural damping."""
+    if not (sea is None or isinstance(sea, Sea)):
+        raise InputError(
+            "sea", sea, "StillWater(), IrregularWaves(...) or None", "Give one of them."
+        )
     support = make_foundation(turbine, foundation)
     chain = build_chain(
         turbine,

@@ -15,6 +15,8 @@ from offwind_pin.turbines.definition import Array
 FAMILIES = {"FA": "fore-aft", "SS": "side-side", "T": "torsion", "V": "vertical"}
 _FAMILY_OF_JOINT = {"px": "FA", "ry": "FA", "py": "SS", "rx": "SS", "rz": "T", "pz": "V"}
 _ORDINALS = {1: "first", 2: "second", 3: "third", 4: "fourth", 5: "fifth", 6: "sixth"}
+_EQUAL = 1e-6
+"""Relative difference of squared frequencies below which two modes are one pair."""
 _SHOWN = {"FA": 0, "SS": 1, "V": 2, "T": 5}
 
 
@@ -88,10 +90,14 @@ def modes(system: System, n: int = 8, about: StaticResult | None = None) -> Moda
     if not 1 <= n <= system.nv:
         raise InputError("n", n, f"1 to {system.nv}", "Ask for fewer modes, or use more elements.")
     state = about or static(system)
+    if state.q.shape != (system.nv,):
+        allowed = f"a static state of this system, with {system.nv} degrees of freedom"
+        raise InputError("about", f"one with {len(state.q)}", allowed, "Solve statics anew.")
     rest = np.zeros(system.nv)
     equations = system.equations(state.loads, ramp_time=np.inf)
     stiffness, damping = equations.tangents(0.0, state.q, rest)
     squares, vectors = natural_modes(stiffness, equations.mass(state.q), n)
+    vectors = _separate_planes(system, stiffness, squares, vectors)
     omega = np.sqrt(np.maximum(squares, 0.0))
     dissipation = np.sum(vectors * (damping @ vectors), axis=0)
     participation = _participation(system, stiffness, vectors)
@@ -126,9 +132,29 @@ def modes(system: System, n: int = 8, about: StaticResult | None = None) -> Moda
 def _participation(system: System, stiffness: Array, vectors: Array) -> Array:
     """(n, 4) share of each family's joints in the potential energy of each mode."""
     work = vectors * (stiffness @ vectors)
-    kind = np.array([_FAMILY_OF_JOINT[name[-2:]] for name in system.chain.joint_name])
+    kind = _family_of_joints(system)
     energy = np.array([work[kind == family].sum(axis=0) for family in FAMILIES]).T
     return energy / energy.sum(axis=1, keepdims=True)
+
+
+def _separate_planes(system: System, stiffness: Array, squares: Array, vectors: Array) -> Array:
+    """Turn pairs of equal frequency so that one moves fore-aft and the other side-side.
+
+    On a structure that is the same in every direction any two normal directions are modes.
+    """
+    fore_aft = _family_of_joints(system) == "FA"
+    turned = vectors.copy()
+    for i in range(len(squares) - 1):
+        if abs(squares[i + 1] - squares[i]) <= _EQUAL * abs(squares[i + 1]):
+            pair = turned[:, i : i + 2]
+            energy = pair[fore_aft].T @ (stiffness @ pair)[fore_aft]
+            _, rotation = np.linalg.eigh((energy + energy.T) / 2)
+            turned[:, i : i + 2] = pair @ rotation
+    return turned
+
+
+def _family_of_joints(system: System) -> np.ndarray[tuple[int], np.dtype[np.str_]]:
+    return np.array([_FAMILY_OF_JOINT[name[-2:]] for name in system.chain.joint_name])
 
 
 def _labels(participation: Array) -> tuple[list[str], list[str]]:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
+from scipy.linalg import eigh
 
 from offwind_pin.dynamics.section_loads import SectionCuts
 from offwind_pin.dynamics.system import Equations, System
@@ -86,7 +87,8 @@ def static(
 
     Raises
     ------
-    SolverError : no equilibrium found, with the joint out of balance
+    InputError : a load that is not six finite numbers
+    SolverError : no equilibrium found, with the joint out of balance; or one that is unstable
     """
     acting = [*loads]
     if tower_top_load is not None:
@@ -109,7 +111,22 @@ def static(
             joint=joint,
             residual=size,
         )
+    _check_stability(equations, result.x, result.iterations)
     return _describe(system, equations, result.x, result.iterations, result.residual, scale, acting)
+
+
+def _check_stability(equations: Equations, q: Array, iterations: int) -> None:
+    """An equilibrium counts only if every small motion away from it needs work."""
+    stiffness, _ = equations.tangents(0.0, q, np.zeros_like(q))
+    lowest, motion = eigh((stiffness + stiffness.T) / 2, subset_by_index=(0, 0))
+    if lowest[0] <= 0:
+        joint, size = equations.worst_joint(motion[:, 0])
+        raise SolverError(
+            "the equilibrium is unstable: the structure buckles under its weight and the load",
+            step=iterations,
+            joint=joint,
+            residual=size,
+        )
 
 
 def load_scale(system: System) -> float:

@@ -64,7 +64,7 @@ def simulate(
     SolverError : a step did not converge; ``results`` holds the dataset so far
     InterruptedSimulation : the user stopped it; ``results`` holds the dataset so far
     """
-    every = _check_times(duration, dt, ramp, output_dt)
+    every = _check_settings(duration, dt, ramp, output_dt, spectral_radius)
     acting = [_at_yaw_bearing(system, load, ramp, duration) for load in loads]
     start = static(system, loads=acting)
     equations = system.equations(acting, ramp_time=ramp)
@@ -159,13 +159,19 @@ class _Recorder:
         )
 
 
-def _check_times(duration: float, dt: float, ramp: float, output_dt: float | None) -> int:
+def _check_settings(
+    duration: float, dt: float, ramp: float, output_dt: float | None, spectral_radius: float
+) -> int:
     """Number of steps between outputs."""
     for name, value, low in (("duration", duration, 0.0), ("dt", dt, 0.0)):
         if not (np.isfinite(value) and value > low):
             raise InputError(name, value, "a positive number of seconds", "Correct it.")
     if not 0 <= ramp < duration:
         raise InputError("ramp", ramp, f"0 to less than the duration ({duration} s)", "Shorten it.")
+    if output_dt is not None and not (np.isfinite(output_dt) and output_dt > 0):
+        raise InputError("output_dt", output_dt, "a positive number of seconds", "Correct it.")
+    if not 0 <= spectral_radius <= 1:
+        raise InputError("spectral_radius", spectral_radius, "0 to 1", "Correct it.")
     if abs(duration / dt - round(duration / dt)) > 1e-6:
         raise InputError("duration", duration, f"a multiple of dt = {dt} s", "Adjust one of them.")
     every = 1 if output_dt is None else round(output_dt / dt)

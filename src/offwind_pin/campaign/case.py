@@ -8,10 +8,15 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
+from offwind_pin.structure.chain import MOST_ELEMENTS
 from offwind_pin.turbines.definition import Definition, NonNegative, Number, Positive
 from offwind_pin.turbines.reader import find_definition, read_model
 
 FoundationName = Literal["clamped", "coupled_springs", "distributed_springs"]
+
+
+_COARSEST_OUTPUT = 0.3
+"""s; the highest band of interest ends at 1.5 Hz."""
 
 
 class DrySea(Definition):
@@ -79,11 +84,22 @@ class TransientAnalysis(Definition):
     @model_validator(mode="after")
     def _window_holds_a_segment(self) -> TransientAnalysis:
         if self.ramp >= self.duration:
-            raise ValueError(f"ramp_s = {self.ramp} leaves nothing of duration_s = {self.duration}")
-        if self.psd_segment > self.duration - self.ramp:
+            raise ValueError(
+                f"ramp_s = {self.ramp} leaves nothing of duration_s = {self.duration}; shorten it"
+            )
+        if self.output_dt > _COARSEST_OUTPUT:
+            raise ValueError(
+                f"output_dt_s = {self.output_dt} is too coarse for the PSD sum up to 1.5 Hz; use "
+                f"{_COARSEST_OUTPUT} or less"
+            )
+        if self.psd_segment < 10 * self.output_dt:
+            raise ValueError(
+                f"psd_segment_s = {self.psd_segment} holds fewer than ten samples; lengthen it"
+            )
+        if self.psd_segment > self.duration - self.ramp - self.output_dt:
             raise ValueError(
                 f"psd_segment_s = {self.psd_segment} is longer than the analysed "
-                f"{self.duration - self.ramp} s; shorten it or lengthen duration_s"
+                f"{self.duration - self.ramp - self.output_dt} s; shorten it or lengthen duration_s"
             )
         return self
 
@@ -112,9 +128,20 @@ class Case(Definition):
     analysis: Annotated[
         StaticAnalysis | ModalAnalysis | TransientAnalysis, Field(discriminator="kind")
     ]
-    seed: Annotated[int, Field(ge=0)] = 1
-    elements: Annotated[int, Field(ge=2, le=2000)] | dict[str, int] | None = None
+    seed: Annotated[int, Field(ge=0, lt=2**31)] = 1
+    elements: Annotated[int, Field(ge=1, le=MOST_ELEMENTS)] | dict[str, int] | None = None
     published: tuple[PublishedValue, ...] = ()
+
+    @model_validator(mode="after")
+    def _loads_have_an_effect(self) -> Case:
+        if self.analysis.kind == "transient":
+            return self
+        if self.tower_top_load is not None or self.sea.kind == "irregular_waves":
+            raise ValueError(
+                f"a {self.analysis.kind} analysis takes neither tower_top_load nor "
+                "irregular_waves; remove them or use analysis kind transient"
+            )
+        return self
 
 
 def shipped_cases() -> list[str]:

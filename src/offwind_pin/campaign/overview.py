@@ -128,7 +128,8 @@ def _frequencies(turbine: Turbine) -> dict[str, dict[str, float]]:
     found = {}
     for foundation in (name for name, known in described.items() if known):
         sea = None if foundation == "clamped" else StillWater()
-        result = modes(build(turbine, foundation, sea), 8)
+        system = build(turbine, foundation, sea)
+        result = modes(system, min(8, system.nv))
         water = "in still water" if sea else "dry"
         found[f"{foundation}, {water}"] = {
             label: float(result.frequency_hz[result.index(label)])

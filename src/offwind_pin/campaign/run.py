@@ -23,8 +23,10 @@ from offwind_pin.campaign.case import (
     SyntheticTowerTopLoad,
     TransientAnalysis,
 )
+from offwind_pin.campaign.output import check_writable
 from offwind_pin.campaign.summaries import (
     moment_spectrum,
+    summarise_damping,
     summarise_modes,
     summarise_spectrum,
     summarise_static,
@@ -84,7 +86,7 @@ def run_case(
     InputError : something in the case cannot be used
     SolverError, InterruptedSimulation : the solve stopped; the results so far are in ``out``
     """
-    _check_directory(out)
+    check_writable(out)
     turbine = _turbine(case, folder)
     clock = time.perf_counter()
     try:
@@ -94,7 +96,7 @@ def run_case(
         raise
     wall = time.perf_counter() - clock
     summary = _head(case, "complete", wall, result.summary.pop("simulated_s", 0.0))
-    summary |= result.summary
+    summary |= result.summary | {"structural_damping": summarise_damping(result.system)}
     _write(case, turbine, out, replace(result, summary=summary))
     return summary
 
@@ -115,10 +117,11 @@ def _solve_static(case: Case, turbine: Turbine, analysis: StaticAnalysis) -> Cas
     if analysis.compare_with is not None:
         other = static(_build(case, turbine, analysis.compare_with))
         reference = float(other.tower_top_displacement[0])
-        increase = float(state.tower_top_displacement[0]) / reference - 1
         statics[analysis.compare_with] = other
         summary[f"{analysis.compare_with}_tower_top_x_m"] = reference
-        summary[f"increase_over_{analysis.compare_with}_percent"] = 100 * increase
+        if reference != 0:
+            increase = float(state.tower_top_displacement[0]) / reference - 1
+            summary[f"increase_over_{analysis.compare_with}_percent"] = 100 * increase
     return CaseResult(summary, static_to_dataset(system, state), system, None, statics)
 
 
@@ -167,7 +170,7 @@ def _solve_transient(
     )
     mean = None if history is None else history.mean(analysis.ramp, analysis.duration)
     state = static(system, mean)
-    result = modes(system, 8, state)
+    result = modes(system, min(8, system.nv), state)
     spectrum = moment_spectrum(data, analysis.psd_segment, _marked(case, result))
     summary = summarise_spectrum(data, spectrum)
     summary |= {
@@ -295,14 +298,14 @@ def _write(case: Case, turbine: Turbine, out: Path, result: CaseResult) -> None:
         statics=result.statics,
         histories=histories,
         published=tuple(
-            Published(
-                row.quantity, row.value, row.unit, row.source or "", result.summary.get(row.key)
-            )
+            Published(row.quantity, row.value, row.unit, row.source or "", _ours(result, row.key))
             for row in case.published
         ),
         wind=_wind_report(case, turbine),
         psd=result.spectrum,
     )
+    # The summary is written last, so that where it stands the other files belong to it.
+    (out / "summary.json").unlink(missing_ok=True)
     write_netcdf(out / "results.nc", result.data.assign_attrs(case=case.name))
     write_report(out / "report.html", report)
     write_json(out / "summary.json", result.summary)
@@ -322,6 +325,8 @@ def _write_partial(
     """What there is of a stopped run: the histories so far, and a summary that says so."""
     status = "failed" if isinstance(stopped, SolverError) else "interrupted"
     reached = 0.0
+    for stale in ("report.html", "results.nc", "summary.json"):
+        (out / stale).unlink(missing_ok=True)
     if stopped.results is not None and stopped.results.sizes["time"]:
         write_netcdf(out / "results.nc", stopped.results)
         reached = float(stopped.results["time"][-1])
@@ -334,6 +339,7 @@ def _turbine(case: Case, folder: Path) -> Turbine:
     return load_turbine(local if local.is_file() else case.turbine)
 
 
-def _check_directory(out: Path) -> None:
-    if out.exists() and not out.is_dir():
-        raise InputError("--out", str(out), "a directory", "Name another place for the results.")
+def _ours(result: CaseResult, key: str) -> float | None:
+    """A number of the summary; None where there is none of that key."""
+    value = result.summary.get(key)
+    return float(value) if isinstance(value, int | float) else None

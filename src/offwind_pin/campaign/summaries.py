@@ -9,6 +9,7 @@ import xarray as xr
 from offwind_pin.analysis.modal import ModalResult
 from offwind_pin.analysis.static import StaticResult
 from offwind_pin.display.report import Band, MomentSpectrum
+from offwind_pin.dynamics.system import System
 from offwind_pin.signal.spectra import band_sum, peaks, power_spectral_density
 
 BANDS_HZ = {"psd_sum_0p2_0p3": (0.2, 0.3), "psd_sum_1p0_1p5": (1.0, 1.5)}
@@ -28,6 +29,13 @@ def summarise_modes(result: ModalResult) -> list[dict[str, Any]]:
         }
         for i, label in enumerate(result.label)
     ]
+
+
+def summarise_damping(system: System) -> dict[str, Any]:
+    """Structural damping as asked for and as achieved on the system it was calibrated on."""
+    calibration = system.turbine.structural_damping
+    asked = {} if calibration is None else dict(calibration.ratios)
+    return {"asked": asked, "achieved": system.damping_ratios}
 
 
 def summarise_static(state: StaticResult) -> dict[str, Any]:

@@ -41,6 +41,11 @@ class IrregularWaves:
             value = getattr(self, name)
             if not (np.isfinite(value) and value > 0):
                 raise InputError(f"waves, field {name}", value, "a positive number", "Correct it.")
+        if self.repeat_period < 5 * self.peak_period:
+            allowed = f"at least five peak periods ({5 * self.peak_period} s)"
+            raise InputError("waves, field repeat_period", self.repeat_period, allowed, "Raise it.")
+        if not (isinstance(self.seed, int) and self.seed >= 0):
+            raise InputError("waves, field seed", self.seed, "a whole number from 0", "Correct it.")
 
     def realise(self, turbine: Turbine) -> IrregularSea:
         return IrregularSea.pierson_moskowitz(

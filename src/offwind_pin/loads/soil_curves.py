@@ -12,6 +12,7 @@ import numpy as np
 from offwind_pin.errors import InputError
 from offwind_pin.turbines.definition import Array, CurveTable, LinearModulus, TanhCurve
 
+_LARGEST_DISPLACEMENT = 10.0
 _COLUMNS = ("depth_m", "y_m", "p_n_per_m")
 
 
@@ -149,6 +150,9 @@ def _read_table(path: Path) -> dict[float, tuple[Array, Array]]:
                 "depth, y and p of zero or more",
                 "Give one side of the curve.",
             )
+        if y > _LARGEST_DISPLACEMENT:
+            allowed = f"y up to {_LARGEST_DISPLACEMENT} m"
+            raise InputError(where, y, allowed, "Is y in m?")
         points = by_depth.setdefault(depth, [])
         if points and y <= points[-1][0]:
             raise InputError(

@@ -130,7 +130,8 @@ class SyntheticWind:
     ) -> LoadHistory:
         """A history from 0 to ``duration``, periodic in ``repeat_period``.
 
-        Its mean over any whole period is the mean load exactly.
+        Its mean over any whole period is the mean load exactly. Samples are at most dt apart, at
+        a whole number for each period.
 
         The wind varies with a Kaimal spectrum, averaged over the rotor by Vickery's aerodynamic
         admittance 1 / (1 + (2 f sqrt(A) / U)^(4/3)); thrust and torque follow it quasi-steadily at
@@ -140,16 +141,17 @@ class SyntheticWind:
 
         Raises
         ------
-        InputError : a dt too coarse for the harmonics, or one that does not divide the period
+        InputError : a dt too coarse for the harmonics, or a period that is not positive
         """
         _check_sampling(dt, repeat_period)
         rotor = operate_rotor(rna, self.wind_speed, self.blade_passing_frequency)
         rng = np.random.default_rng((self.seed, _STREAM))
-        count = round(repeat_period / dt)
+        count = int(np.ceil(repeat_period / dt - 1e-9))
+        interval = repeat_period / count
         frequency = np.arange(1, int(_HIGHEST_FREQUENCY * repeat_period) + 1) / repeat_period
         gust = _realise(self._rotor_wind_spectrum(frequency, rotor), frequency, count, rng)
         ratio = 2 * gust / self.wind_speed
-        time = np.arange(count) * repeat_period / count
+        time = np.arange(count) * interval
         for order, sigma in enumerate(self.harmonics, start=1):
             center = order * self.blade_passing_frequency
             half_width = order * self.wind_speed / (2 * np.pi * rotor.radius)
@@ -157,14 +159,17 @@ class SyntheticWind:
             coherent = self.coherent_fraction**order
             stochastic = (1 - coherent) * sigma**2 * band
             ratio += _realise(stochastic, frequency, count, rng)
-            tone = round(center * repeat_period) / repeat_period
+            tone = max(1, round(center * repeat_period)) / repeat_period
             amplitude = np.sqrt(2 * coherent) * sigma
             ratio += amplitude * np.cos(2 * np.pi * tone * time - rng.uniform(0, 2 * np.pi))
-        samples = np.arange(round(duration / dt) + 1)
+        samples = np.arange(int(np.ceil(duration / interval - 1e-9)) + 1)
         steady = steady_load(rna, rotor)
         load = steady * (1 + ratio[samples % count, None])
         return LoadHistory(
-            samples.astype(np.float64) * dt, load, origin=self._describe(), surrogate=self.surrogate
+            samples.astype(np.float64) * interval,
+            load,
+            origin=self._describe(),
+            surrogate=self.surrogate,
         )
 
     def _rotor_wind_spectrum(self, frequency: Array, rotor: RotorOperation) -> Array:
@@ -191,9 +196,9 @@ def _check_sampling(dt: float, repeat_period: float) -> None:
     if not 0 < dt < 0.5 / _HIGHEST_FREQUENCY:
         limits = f"more than 0 and less than {0.5 / _HIGHEST_FREQUENCY} s"
         raise InputError("synthetic wind, dt", dt, limits, "Refine it.")
-    if repeat_period <= 0 or abs(repeat_period / dt - round(repeat_period / dt)) > 1e-6:
-        multiple = f"a positive multiple of dt = {dt} s"
-        raise InputError("synthetic wind, repeat_period", repeat_period, multiple, "Adjust it.")
+    if not (np.isfinite(repeat_period) and repeat_period > 0):
+        positive = "a positive number of seconds"
+        raise InputError("synthetic wind, repeat_period", repeat_period, positive, "Correct it.")
 
 
 def _realise(spectrum: Array, frequency: Array, count: int, rng: np.random.Generator) -> Array:

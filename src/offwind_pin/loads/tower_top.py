@@ -31,6 +31,18 @@ class LoadHistory:
     origin: str
     surrogate: str | None = None
 
+    def __post_init__(self) -> None:
+        time, load = np.asarray(self.time, dtype=float), np.asarray(self.load, dtype=float)
+        object.__setattr__(self, "time", time)
+        object.__setattr__(self, "load", load)
+        if time.ndim != 1 or load.shape != (len(time), 6) or len(time) == 0:
+            shapes = f"time {time.shape}, load {load.shape}"
+            raise InputError("load history", shapes, "time (t,) and load (t, 6)", "Reshape them.")
+        if not (np.all(np.isfinite(time)) and np.all(np.isfinite(load))):
+            raise InputError("load history", "NaN or infinity", "finite numbers", "Correct them.")
+        if np.any(np.diff(time) <= 0):
+            raise InputError("load history, time", time.tolist(), "rising times", "Sort them.")
+
     def mean(self, start: float, end: float) -> Array:
         """(6,) time average of the linearly interpolated history between two times."""
         inside = self.time[(self.time > start) & (self.time < end)]

@@ -9,6 +9,8 @@ import numpy as np
 from offwind_pin.turbines.definition import Array
 
 _LARGEST_EXPONENT = 700.0
+_BLOCK = 1000
+"""Times for which all components are held in memory at once."""
 _STREAM = 1
 """Keeps the random numbers of waves and wind apart when a case gives both one seed."""
 
@@ -91,8 +93,11 @@ class IrregularSea:
 
     def elevation(self, time: Array) -> Array:
         """Surface elevation at x = 0 in m, (t,)."""
-        angle = 2 * np.pi * np.outer(time, self.frequency) - self.phase
-        return np.cos(angle) @ self.amplitude
+        blocks = [
+            np.cos(2 * np.pi * np.outer(block, self.frequency) - self.phase) @ self.amplitude
+            for block in np.array_split(time, len(time) // _BLOCK + 1)
+        ]
+        return np.concatenate(blocks)
 
     def kinematics_at(self, height: Array) -> WaveKinematics:
         """Kinematics at fixed heights z <= 0 on the axis x = 0."""

@@ -41,7 +41,15 @@ def power_spectral_density(values: Array, dt: float, segment: float = 200.0) -> 
 
 
 def band_sum(frequency: Array, density: Array, low: float, high: float) -> float:
-    """Area under a PSD between two frequencies in Hz, by trapezoids with interpolated ends."""
+    """Area under a PSD between two frequencies in Hz, by trapezoids with interpolated ends.
+
+    Raises
+    ------
+    InputError : a band beyond the highest frequency of the spectrum
+    """
+    if high > frequency[-1]:
+        allowed = f"at most {frequency[-1]:g} Hz, half the sampling frequency"
+        raise InputError("band", f"{high} Hz", allowed, "Sample more often.")
     inside = frequency[(frequency > low) & (frequency < high)]
     nodes = np.concatenate([[low], inside, [high]])
     return float(np.trapezoid(np.interp(nodes, frequency, density), nodes))

@@ -49,7 +49,7 @@ class Step:
 
 
 class StepFailed(Exception):
-    """A step that did not converge: its number, its time and the residual (n,) it was left with."""
+    """A step that did not converge: its number, its time and its last finite residual (n,)."""
 
     def __init__(self, number: int, time: float, residual: Array) -> None:
         self.number = number
@@ -112,11 +112,13 @@ class GeneralizedAlpha:
             guess = (2 * a - before) / by_a
             q_new, v_new, a_new = _correct(q_new, v_new, np.zeros_like(a), guess, by_v, by_a)
             previous = increment = np.inf
+            last = np.full_like(a, np.inf)
             for iteration in range(self.max_iterations + 1):
                 r = system.residual(time, q_new, v_new, a_new)
                 size = float(np.max(np.abs(r))) / scale
                 if not np.isfinite(size) or iteration == self.max_iterations:
-                    raise StepFailed(number, time, r)
+                    raise StepFailed(number, time, last)
+                last = r
                 if size <= self.relative_tolerance and increment <= self.increment_tolerance:
                     break
                 if factors is None or size > self.slow * previous:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 
@@ -35,6 +35,8 @@ ELEMENT_LENGTH = {"pile": 3.0, "monopile": 4.0, "tower": 4.0}
 Chosen by the convergence study in tests/convergence: the first five frequencies of the benchmark
 lie within 0.1 % of the converged ones.
 """
+
+MOST_ELEMENTS = 200
 
 ROOT_JOINTS = ("px", "py", "pz", "rx", "ry", "rz")
 NODE_JOINTS = ("rx", "ry", "rz")
@@ -91,7 +93,7 @@ class Chain:
     def body_name(self) -> list[str]:
         """Names of the N + 1 bodies, from the base upwards."""
         elements = [name.removesuffix("_rx") for name in self.joint_name[self.roots :: 3]]
-        return ["base", *(name.replace("_e", "_b") for name in elements)]
+        return ["base", *("_b".join(name.rsplit("_e", 1)) for name in elements)]
 
     def body_at(self, height: Array) -> NDArrayInt:
         """Index of the body that carries the axis at each height; at a joint, the body above."""
@@ -123,6 +125,8 @@ def build_chain(
     ------
     InputError : an element number that cannot be met, or a region that is not there
     """
+    if stiffness not in get_args(Stiffness):
+        raise InputError("stiffness", stiffness, ", ".join(get_args(Stiffness)), "Choose one.")
     spans = _regions(turbine, base)
     counts = _element_counts(spans, elements)
     boundary: list[float] = [base]
@@ -130,9 +134,10 @@ def build_chain(
     names: list[str] = []
     for (name, low, high), count in zip(spans, counts, strict=True):
         boundary.extend(np.linspace(low, high, count + 1)[1:])
-        region.extend([name] * count)
         prefix = {"monopile": "mono"}.get(name, name)
-        names.extend(f"{prefix}_e{i:03d}" for i in range(1, count + 1))
+        first = region.count(name) + 1
+        names.extend(f"{prefix}_e{i:03d}" for i in range(first, first + count))
+        region.extend([name] * count)
     edges = np.array(boundary)
     middle = (edges[:-1] + edges[1:]) / 2
     cuts = np.concatenate([[base], middle, [turbine.yaw_bearing]])
@@ -165,45 +170,55 @@ def _regions(turbine: Turbine, base: float) -> list[tuple[str, float, float]]:
 
 
 def _element_counts(spans: list[tuple[str, float, float]], elements: Elements) -> list[int]:
+    """Number of elements of each span: the default, or shares of what was asked for."""
     default = [
         int(np.ceil((high - low) / ELEMENT_LENGTH.get(name, ELEMENT_LENGTH["tower"]) - 1e-9))
         for name, low, high in spans
     ]
     if elements is None:
-        return default
-    if isinstance(elements, Mapping):
-        return _counts_by_region(spans, default, elements)
-    if elements < len(spans):
+        counts = default
+    elif isinstance(elements, Mapping):
+        counts = _counts_by_region([name for name, *_ in spans], default, elements)
+    else:
+        counts = _share(elements, default, "elements")
+    if sum(counts) > MOST_ELEMENTS:
         raise InputError(
             "elements",
-            elements,
-            f"at least {len(spans)}, one for each of {', '.join(name for name, *_ in spans)}",
-            "Use more elements.",
+            sum(counts),
+            f"{MOST_ELEMENTS} at most (Pinocchio's memory grows with the cube of the number)",
+            "Use fewer elements; are the heights in m?",
         )
-    shares = np.array(default) * elements / sum(default)
-    counts = np.maximum(1, np.floor(shares).astype(int))
-    while counts.sum() < elements:
-        counts[np.argmax(shares - counts)] += 1
-    while counts.sum() > elements:
-        counts[np.argmax(np.where(counts > 1, counts - shares, -np.inf))] -= 1
-    return [int(count) for count in counts]
+    return counts
 
 
 def _counts_by_region(
-    spans: list[tuple[str, float, float]], default: list[int], elements: Mapping[str, int]
+    names: list[str], default: list[int], elements: Mapping[str, int]
 ) -> list[int]:
-    names = [name for name, *_ in spans]
-    for name, count in elements.items():
-        if name not in names:
-            raise InputError(
-                f"elements[{name!r}]",
-                count,
-                f"the regions {', '.join(names)}",
-                "Rename the region.",
-            )
-        if count < 1:
-            raise InputError(f"elements[{name!r}]", count, "1 or more", "Use more elements.")
-    return [elements.get(name, count) for name, count in zip(names, default, strict=True)]
+    """Counts with the regions that are named set; one region may hold several spans."""
+    counts = list(default)
+    for name, total in elements.items():
+        places = [i for i, region in enumerate(names) if region == name]
+        if not places:
+            known = ", ".join(dict.fromkeys(names))
+            raise InputError(f"elements[{name!r}]", total, f"the regions {known}", "Rename it.")
+        shares = _share(total, [default[i] for i in places], f"elements[{name!r}]")
+        for i, count in zip(places, shares, strict=True):
+            counts[i] = count
+    return counts
+
+
+def _share(total: int, weights: list[int], where: str) -> list[int]:
+    """Divide a total in proportion to weights, one at least for each."""
+    if total < len(weights):
+        allowed = f"at least {len(weights)}, one for each part between jumps of the section"
+        raise InputError(where, total, allowed, "Use more elements.")
+    shares = np.array(weights) * total / sum(weights)
+    counts = np.maximum(1, np.floor(shares).astype(int))
+    while counts.sum() < total:
+        counts[np.argmax(shares - counts)] += 1
+    while counts.sum() > total:
+        counts[np.argmax(np.where(counts > 1, counts - shares, -np.inf))] -= 1
+    return [int(count) for count in counts]
 
 
 def _joint_stiffness(turbine: Turbine, boundary: Array, rule: Stiffness) -> Array:

@@ -26,8 +26,14 @@ def _reject_bool(value: Any) -> Any:
 Number = Annotated[float, BeforeValidator(_reject_bool), Field(allow_inf_nan=False)]
 Positive = Annotated[Number, Field(gt=0)]
 NonNegative = Annotated[Number, Field(ge=0)]
+Height = Annotated[Number, Field(ge=-1000, le=1000)]
+Angle = Annotated[Number, Field(ge=-30, le=30)]
 Vector3 = tuple[Number, Number, Number]
 Vector6 = tuple[Number, Number, Number, Number, Number, Number]
+
+
+_KEPT_NAMES = {"base", "mono", "pile", "rna", "root", "world"}
+"""Names that the chain gives to parts of its own."""
 
 
 class Definition(BaseModel):
@@ -51,7 +57,7 @@ class Material(Definition):
 class Station(Definition):
     """Circular hollow section at one height; between stations both numbers vary linearly."""
 
-    z: Number = Field(alias="z_m")
+    z: Height = Field(alias="z_m")
     diameter: Annotated[Positive, Field(le=50)] = Field(alias="diameter_m")
     thickness: Annotated[Positive, Field(le=1)] = Field(alias="thickness_m")
 
@@ -96,11 +102,20 @@ class PointMass(Definition):
     """Mass on the axis of the structure (flange, platform, transition piece)."""
 
     name: str
-    z: Number = Field(alias="z_m")
+    z: Height = Field(alias="z_m")
     mass: NonNegative = Field(alias="mass_kg")
     inertia: tuple[NonNegative, NonNegative, NonNegative] = Field(
         alias="inertia_kg_m2", default=(0.0, 0.0, 0.0)
     )
+
+    @model_validator(mode="after")
+    def _round(self) -> PointMass:
+        if self.inertia[0] != self.inertia[1]:
+            raise ValueError(
+                f"inertia_kg_m2 has {self.inertia[0]} about x and {self.inertia[1]} about y; "
+                "bodies of the chain are round, give the same value twice"
+            )
+        return self
 
 
 class RigidBodyRNA(Definition):
@@ -160,10 +175,10 @@ class RotorNacelleRNA(Definition):
     blades: Annotated[int, Field(ge=1, le=6)]
     blade: Blade
     hub_radius: Positive = Field(alias="hub_radius_m")
-    precone: Number = Field(alias="precone_deg")
+    precone: Angle = Field(alias="precone_deg")
     hub_center_of_mass: Number = Field(alias="hub_center_of_mass_m")
     overhang: Number = Field(alias="overhang_m")
-    shaft_tilt: Number = Field(alias="shaft_tilt_deg")
+    shaft_tilt: Angle = Field(alias="shaft_tilt_deg")
     tower_to_shaft: Number = Field(alias="tower_to_shaft_m")
     hub_mass: NonNegative = Field(alias="hub_mass_kg")
     hub_inertia: NonNegative = Field(alias="hub_inertia_kg_m2")
@@ -173,11 +188,24 @@ class RotorNacelleRNA(Definition):
     nacelle_center_of_mass: Vector3 = Field(alias="nacelle_center_of_mass_m")
     yaw_bearing_mass: NonNegative = Field(alias="yaw_bearing_mass_kg")
 
+    @model_validator(mode="after")
+    def _masses_are_physical(self) -> RotorNacelleRNA:
+        x, y, _ = self.nacelle_center_of_mass
+        if self.nacelle_yaw_inertia < self.nacelle_mass * (x**2 + y**2):
+            raise ValueError(
+                f"nacelle_yaw_inertia_kg_m2 = {self.nacelle_yaw_inertia} is less than the "
+                f"nacelle's mass times its arm squared ({self.nacelle_mass * (x**2 + y**2)}); "
+                "give the inertia about the yaw axis"
+            )
+        if not any(self.blade.mass_density):
+            raise ValueError("the blade weighs nothing; mass_density_kg_per_m must not be all zero")
+        return self
+
 
 class Site(Definition):
     """Water and gravity. The mudline lies at z = -water_depth."""
 
-    water_depth: Positive = Field(alias="water_depth_m")
+    water_depth: Annotated[Positive, Field(le=500)] = Field(alias="water_depth_m")
     water_density: Annotated[Positive, Field(ge=900, le=1200)] = Field(
         alias="water_density_kg_per_m3"
     )
@@ -285,14 +313,14 @@ class DampingCalibration(Definition):
     foundation: Literal["clamped", "coupled_springs"]
     still_water: bool
     ratios: dict[
-        Annotated[str, Field(pattern=r"^(FA|SS|T|V)[1-9]$")], Annotated[NonNegative, Field(lt=1)]
+        Annotated[str, Field(pattern=r"^(FA|SS|T|V)[1-9]$")], Annotated[Positive, Field(lt=1)]
     ] = Field(alias="ratios_of_critical", min_length=1)
 
 
 class Turbine(Definition):
     """A monopile wind turbine and its site."""
 
-    name: str
+    name: Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9._-]*$")]
     description: str = ""
     site: Site
     materials: dict[str, Material]
@@ -312,10 +340,10 @@ class Turbine(Definition):
                     f"not list (it has {', '.join(self.materials)})"
                 )
         names = [member.name for member in self.members]
-        if len(set(names)) < len(names) or "pile" in names:
+        if len(set(names)) < len(names) or not _KEPT_NAMES.isdisjoint(names):
             raise ValueError(
-                f"members are named {', '.join(names)}; names must differ, and 'pile' is kept for "
-                "what lies below the mudline"
+                f"members are named {', '.join(names)}; give them different names, and none of "
+                f"{', '.join(sorted(_KEPT_NAMES))}"
             )
         for lower, upper in zip(self.members, self.members[1:], strict=False):
             if upper.bottom != lower.top:

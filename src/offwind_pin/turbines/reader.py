@@ -109,6 +109,10 @@ def _read_yaml(path: Path) -> dict[str, Any]:
         raise InputError(
             place, problem, "valid YAML", "Correct the line; is the file complete?"
         ) from None
+    except (ValueError, TypeError, RecursionError) as error:
+        raise InputError(
+            str(path), str(error), "valid YAML of numbers, texts, lists and mappings", "Correct it."
+        ) from None
     if data is None:
         raise InputError(str(path), "an empty file", "a YAML mapping", "Fill in the definition.")
     if not isinstance(data, dict):
@@ -137,6 +141,9 @@ def _input_error(
     if first["type"] == "missing":
         return InputError(where, "nothing", "a value (the field is required)", "Add it." + more)
     message = first["msg"].removeprefix("Value error, ")
+    if first["type"] == "value_error":
+        fault, _, remedy = message.partition("; ")
+        return InputError(where, fault, "parts that fit together", _sentence(remedy) + more)
     context = first.get("ctx", {})
     if first["type"].startswith("union_tag"):
         where += f".{str(context['discriminator']).strip(chr(39))}"
@@ -145,6 +152,10 @@ def _input_error(
         return InputError(where, received, allowed, "Choose one of them." + more)
     remedy = "Check the unit named in the key." if {"ge", "gt", "le", "lt"} & set(context) else ""
     return InputError(where, first["input"], message, (remedy or "Correct the value.") + more)
+
+
+def _sentence(remedy: str) -> str:
+    return f"{remedy[:1].upper()}{remedy[1:]}." if remedy else "Correct it."
 
 
 def _enumerate(places: list[str], most: int = 5) -> str:
