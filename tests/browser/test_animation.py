@@ -125,7 +125,8 @@ class Visit:
     def places(self) -> set[str]:
         """Scheme of each request, with the host where there is one."""
         parts = [urlsplit(url) for url in self.requested]
-        return {f"{part.scheme}:{part.hostname or ''}" for part in parts}
+        # The browser's own first tab may still be loading its parts; they are no request of the page.
+        return {f"{part.scheme}:{part.hostname or ''}" for part in parts if part.scheme != "chrome"}
 
 
 def wait(driver: webdriver.Chrome, condition: str) -> None:
