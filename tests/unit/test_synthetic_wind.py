@@ -110,7 +110,9 @@ def test_load_keeps_its_direction(oc6: ow.Turbine) -> None:
     assert_allclose(load, np.outer(load[:, 0] / reference[0], reference), rtol=1e-12, atol=1e-6)
 
 
-@pytest.mark.parametrize(("dt", "period"), [(0.2, 100.0), (0.0, 100.0), (0.02, 0.0), (0.02, float("nan"))])
+@pytest.mark.parametrize(
+    ("dt", "period"), [(0.2, 100.0), (0.0, 100.0), (0.02, 0.0), (0.02, float("nan"))]
+)
 def test_sampling_that_cannot_hold_the_load_is_refused(
     oc6: ow.Turbine, dt: float, period: float
 ) -> None:
