@@ -46,6 +46,7 @@ from offwind_pin.loads.tower_top import LoadHistory, read_load_history
 from offwind_pin.results.dataset import versions
 from offwind_pin.results.files import write_json, write_netcdf
 from offwind_pin.results.states import modal_dataset, static_dataset
+from offwind_pin.structure.urdf import definition_hash
 from offwind_pin.turbines.definition import RotorNacelleRNA, Turbine
 from offwind_pin.turbines.reader import load_turbine
 
@@ -269,7 +270,9 @@ def static_to_dataset(system: System, state: StaticResult) -> xr.Dataset:
 def _attributes(system: System) -> dict[str, Any]:
     return {
         "turbine": system.turbine.name,
+        "definition_sha256": definition_hash(system.turbine),
         "foundation": system.foundation.name,
+        "sea": repr(system.sea) if system.sea else "dry",
         "surrogates": system.foundation.surrogate or "none",
         "elements": system.chain.elements,
     }

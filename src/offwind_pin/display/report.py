@@ -19,7 +19,7 @@ from matplotlib.figure import Figure
 
 from offwind_pin.analysis.modal import ModalResult, mode_name
 from offwind_pin.analysis.static import StaticResult
-from offwind_pin.display import findings, plots
+from offwind_pin.display import headline, plots, tables
 from offwind_pin.display.style import to_svg
 from offwind_pin.display.wording import (
     DASH,
@@ -197,8 +197,8 @@ def render_report(report: CaseReport) -> str:
         .get_template("report.html.j2")
         .render(
             report=report,
-            headline=findings.headline(report),
-            cards=findings.cards(report),
+            headline=headline.headline(report),
+            cards=headline.cards(report),
             shown=shown,
             figures=_pictures(report),
             titles=SECTIONS,
@@ -217,30 +217,30 @@ def _environment() -> Environment:
     )
     words = (as_given, mode_name, number, sentence)
     environment.filters |= {word.__name__: word for word in words}
-    environment.globals["foundation_name"] = findings.foundation_name
+    environment.globals["foundation_name"] = tables.foundation_name
     return environment
 
 
 def _tables(report: CaseReport) -> dict[str, Any]:
     """What each section shows besides its figure; empty where the section has nothing to say."""
     return {
-        "surrogates": findings.surrogates(report),
-        "published": findings.published_rows(report),
-        "structure": findings.structure_facts(report.system),
-        "modes": findings.mode_rows(report),
-        "statics": findings.ordered_statics(report),
-        "increases": findings.static_increases(report),
-        "wind": findings.wind_facts(report.wind),
+        "surrogates": tables.surrogates(report),
+        "published": tables.published_rows(report),
+        "structure": tables.structure_facts(report.system),
+        "modes": tables.mode_rows(report),
+        "statics": tables.ordered_statics(report),
+        "increases": headline.static_increases(report),
+        "wind": tables.wind_facts(report.wind),
         "histories": report.histories is not None,
-        "statistics": findings.statistics(report),
+        "statistics": tables.statistics(report),
         "psd": report.psd,
-        "psd_rows": findings.psd_rows(report.psd),
+        "psd_rows": tables.psd_rows(report.psd),
         "envelope": report.analysed is not None,
         "soil": plots.soil_springs(report.system) is not None,
         "damping": True,
-        "damping_rows": findings.damping_rows(report.system),
-        "solver": findings.solver_account(report),
-        "provenance": findings.provenance(report),
+        "damping_rows": tables.damping_rows(report.system),
+        "solver": tables.solver_account(report),
+        "provenance": tables.provenance(report),
         "summary_json": json.dumps(report.summary, indent=2, default=str),
     }
 
@@ -258,7 +258,7 @@ def _figures(report: CaseReport) -> dict[str, Figure]:
     if report.modes is not None:
         figures["modes"] = plots.mode_shapes(report.modes, mudline, water=water)
     if report.statics:
-        figures["statics"] = plots.statics(findings.ordered_statics(report), water=water)
+        figures["statics"] = plots.statics(tables.ordered_statics(report), water=water)
     if report.histories is not None:
         figures["histories"] = plots.time_histories(report.histories)
     if report.psd is not None:
