@@ -132,7 +132,7 @@ def _solve_modes(case: Case, turbine: Turbine, analysis: ModalAnalysis) -> CaseR
     result = modes(system, analysis.count, state)
     table = summarise_modes(result)
     summary: dict[str, Any] = {"foundation": case.foundation, "modes": table}
-    summary |= {f"{row['label']}_hz": row["frequency_hz"] for row in table}
+    summary |= _frequencies(result)
     summary |= {
         f"{row['label']}_peak_height_ratio": row["shape_peak_height_ratio"] for row in table
     }
@@ -183,11 +183,20 @@ def _solve_transient(
             zip(result.label, result.frequency_hz.tolist(), strict=True)
         ),
         "modes": summarise_modes(result),
+        **_frequencies(result),
         "steps": round(analysis.duration / analysis.dt),
         "mean_iterations": float(data["solver_iterations"][1:].mean()),
         "largest_residual": float(data["solver_residual"].max()),
     }
     return CaseResult(summary, data, system, result, {case.foundation: state}, spectrum)
+
+
+def _frequencies(result: ModalResult) -> dict[str, float]:
+    """Natural frequencies by keys such as ``FA1_hz``, for published values to name."""
+    return {
+        f"{label}_hz": float(frequency)
+        for label, frequency in zip(result.label, result.frequency_hz, strict=True)
+    }
 
 
 def _build(case: Case, turbine: Turbine, foundation: str, duration: float = 0.0) -> System:
