@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -107,7 +108,7 @@ def static_command(
     as_json: JsonOption = False,  # noqa: FBT002
 ) -> None:
     """Static equilibrium under gravity and, if given, a load at the yaw bearing."""
-    load = None if tower_top_load is None else _six_numbers(tower_top_load)
+    load = None if tower_top_load is None else _numbers(tower_top_load)
     system = build(load_turbine(turbine), foundation, elements=elements)
     summary = summarise_static(static(system, load))
     if as_json:
@@ -190,49 +191,44 @@ def main() -> None:
         sys.exit(EXIT_SYSTEM)
 
 
-class _simulation_progress:  # noqa: N801
+@contextmanager
+def _simulation_progress() -> Iterator[Callable[[float, float], None]]:
     """Progress bar on standard error, shown once a simulation reports its first step."""
+    bar = Progress(
+        TextColumn("simulated {task.completed:7.1f} of {task.total:.0f} s"),
+        BarColumn(),
+        TextColumn("{task.fields[speed]:5.1f} x real time"),
+        TimeRemainingColumn(),
+        TextColumn("left"),
+        console=Console(stderr=True),
+    )
 
-    def __init__(self) -> None:
-        self._bar = Progress(
-            TextColumn("simulated {task.completed:7.1f} of {task.total:.0f} s"),
-            BarColumn(),
-            TextColumn("{task.fields[speed]:5.1f} x real time"),
-            TimeRemainingColumn(),
-            TextColumn("left"),
-            console=Console(stderr=True),
-        )
-
-    def __enter__(self) -> Callable[[float, float], None]:
-        return self._update
-
-    def __exit__(self, *_: object) -> None:
-        if self._bar.tasks:
-            self._bar.stop()
-
-    def _update(self, now: float, duration: float) -> None:
-        if not self._bar.tasks:
-            self._bar.start()
-            self._bar.add_task("", total=duration, speed=0.0)
-        task = self._bar.tasks[0]
+    def update(now: float, duration: float) -> None:
+        if not bar.tasks:
+            bar.start()
+            bar.add_task("", total=duration, speed=0.0)
+        task = bar.tasks[0]
         elapsed = task.elapsed or 0.0
-        self._bar.update(task.id, completed=now, speed=now / elapsed if elapsed > 0 else 0.0)
+        bar.update(task.id, completed=now, speed=now / elapsed if elapsed > 0 else 0.0)
 
-
-def _six_numbers(text: str) -> Array:
-    cells = text.split(",")
     try:
-        values = np.array([float(cell) for cell in cells])
+        yield update
+    finally:
+        if bar.tasks:
+            bar.stop()
+
+
+def _numbers(text: str) -> Array:
+    """Numbers separated by commas; how many there must be is the load's own business."""
+    try:
+        return np.array([float(cell) for cell in text.split(",")])
     except ValueError:
-        values = np.array([np.nan])
-    if values.shape != (6,) or not np.all(np.isfinite(values)):
         raise InputError(
             "--tower-top-load",
             text,
             "six finite numbers FX,FY,FZ,MX,MY,MZ in N and N m",
-            "Separate them by commas, without blanks: 1e6,0,0,0,0,0.",
-        )
-    return values
+            "Separate them by commas: 1e6,0,0,0,0,0.",
+        ) from None
 
 
 def _check_target(path: Path) -> None:

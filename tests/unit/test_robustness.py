@@ -60,6 +60,7 @@ def test_planes_of_a_symmetric_turbine_are_told_apart(symmetric: ow.Turbine) -> 
         modes = ow.modes(system, 4)
         assert sorted(modes.label) == ["FA1", "FA2", "SS1", "SS2"]
         assert np.all(modes.participation.max(axis=1) > 0.999)
+        assert ow.modes(system, 1).participation.max() > 0.999
     assert modes.damping_ratio[modes.index("FA2")] == pytest.approx(0.0127, rel=1e-3)
     assert modes.damping_ratio[modes.index("SS2")] == pytest.approx(0.0133, rel=1e-3)
 

@@ -96,9 +96,10 @@ def modes(system: System, n: int = 8, about: StaticResult | None = None) -> Moda
     rest = np.zeros(system.nv)
     equations = system.equations(state.loads, ramp_time=np.inf)
     stiffness, damping = equations.tangents(0.0, state.q, rest)
-    squares, vectors = natural_modes(stiffness, equations.mass(state.q), n)
-    vectors = _separate_planes(system, stiffness, squares, vectors)
-    omega = np.sqrt(np.maximum(squares, 0.0))
+    # One mode more than asked for, so that no pair of equal frequency is cut in two.
+    found = natural_modes(stiffness, equations.mass(state.q), min(n + 1, system.nv))
+    vectors = _separate_planes(system, stiffness, *found)[:, :n]
+    omega = np.sqrt(found[0][:n])
     dissipation = np.sum(vectors * (damping @ vectors), axis=0)
     participation = _participation(system, stiffness, vectors)
     label, family = _labels(participation)
@@ -118,7 +119,7 @@ def modes(system: System, n: int = 8, about: StaticResult | None = None) -> Moda
     mudline, top = system.turbine.site.mudline, system.chain.top
     return ModalResult(
         frequency_hz=omega / (2 * np.pi),
-        damping_ratio=np.divide(dissipation, 2 * omega, out=np.zeros(n), where=omega > 0),
+        damping_ratio=dissipation / (2 * omega),
         label=label,
         participation=participation,
         height=height,
