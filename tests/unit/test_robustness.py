@@ -173,7 +173,7 @@ def test_places_that_cannot_be_written(
         ["animate", "oc6_phase2", "--html", str(blocking / "x.html")],
     ):
         assert _exit(monkeypatch, *argv) == 2
-        assert "a directory" in capsys.readouterr().err
+        assert "a directory, but" in capsys.readouterr().err
     assert blocking.read_text() == "kept"
 
 
