@@ -6,7 +6,7 @@ INSTALLED := $(VENV)/installed
 export OMP_NUM_THREADS := 1
 export OPENBLAS_NUM_THREADS := 1
 
-.PHONY: help install demo test check lint format types bench urdf lock clean
+.PHONY: help install demo test check lint format types bench peers urdf lock clean
 
 help: ## List the targets
 	@grep -E '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 12
@@ -41,8 +41,11 @@ format: $(INSTALLED) ## Reformat the code
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
 
-bench: $(INSTALLED) ## Measure speed; writes JSON to out/benchmarks
-	$(BIN)/python benchmarks/step_cost.py
+bench: $(INSTALLED) ## Measure speed; writes JSON and a page to out/benchmarks
+	$(BIN)/python benchmarks/run_all.py
+
+peers: $(INSTALLED) ## Install the codes that bench compares with
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-build-isolation -e '.[peers]'
 
 urdf: $(INSTALLED) ## Write the shipped URDF files anew
 	$(BIN)/python sim/write_urdf.py

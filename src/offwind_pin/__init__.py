@@ -8,6 +8,7 @@
 """
 
 from offwind_pin.analysis.build import build
+from offwind_pin.analysis.integrators import GeneralizedAlpha, SciPyIVP
 from offwind_pin.analysis.modal import ModalResult, modes
 from offwind_pin.analysis.static import StaticResult, static
 from offwind_pin.analysis.transient import simulate
@@ -17,16 +18,21 @@ from offwind_pin.dynamics.system import System
 from offwind_pin.errors import InputError, InterruptedSimulation, OffwindError, SolverError
 from offwind_pin.loads.synthetic_wind import SyntheticWind
 from offwind_pin.loads.tower_top import LoadHistory, read_load_history
+from offwind_pin.solve.steps import AdaptiveStep, FixedStep
 from offwind_pin.turbines.definition import Turbine
 from offwind_pin.turbines.reader import load_turbine, shipped_turbines
 
 __all__ = [
+    "AdaptiveStep",
+    "FixedStep",
+    "GeneralizedAlpha",
     "InputError",
     "InterruptedSimulation",
     "IrregularWaves",
     "LoadHistory",
     "ModalResult",
     "OffwindError",
+    "SciPyIVP",
     "SolverError",
     "StaticResult",
     "StillWater",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import logging
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -29,6 +30,7 @@ from offwind_pin.dynamics.sea import StillWater
 from offwind_pin.dynamics.system import System
 from offwind_pin.errors import InputError, InterruptedSimulation, SolverError
 from offwind_pin.results.files import write_text
+from offwind_pin.structure.chain import Element
 from offwind_pin.turbines.definition import Array
 from offwind_pin.turbines.reader import load_turbine
 
@@ -46,6 +48,9 @@ FoundationOption = Annotated[
     str, typer.Option(help="clamped, coupled_springs or distributed_springs.")
 ]
 ElementsOption = Annotated[int | None, typer.Option(help="Multibody beam elements in all.")]
+ElementOption = Annotated[
+    Element, typer.Option(help="euler_bernoulli, or timoshenko for elements that shear as well.")
+]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")]
 
 
@@ -65,12 +70,13 @@ def modes_command(
     foundation: FoundationOption = "distributed_springs",
     dry: Annotated[bool, typer.Option("--dry", help="Without water.")] = False,  # noqa: FBT002
     elements: ElementsOption = None,
+    element: ElementOption = "euler_bernoulli",
     count: Annotated[int | None, typer.Option(help="Number of modes, by default 8.")] = None,
     as_json: JsonOption = False,  # noqa: FBT002
 ) -> None:
     """Natural frequencies about the static state, in still water."""
     sea = None if dry else StillWater()
-    system = build(load_turbine(turbine), foundation, sea, elements=elements)
+    system = build(load_turbine(turbine), foundation, sea, elements=elements, element=element)
     result = modes(system, min(8, system.nv) if count is None else count)
     rows = summarise_modes(result)
     if as_json:
@@ -105,11 +111,12 @@ def static_command(
         typer.Option(metavar="FX,FY,FZ,MX,MY,MZ", help="Load at the yaw bearing in N and N m."),
     ] = None,
     elements: ElementsOption = None,
+    element: ElementOption = "euler_bernoulli",
     as_json: JsonOption = False,  # noqa: FBT002
 ) -> None:
     """Static equilibrium under gravity and, if given, a load at the yaw bearing."""
     load = None if tower_top_load is None else _numbers(tower_top_load)
-    system = build(load_turbine(turbine), foundation, elements=elements)
+    system = build(load_turbine(turbine), foundation, elements=elements, element=element)
     summary = summarise_static(static(system, load))
     if as_json:
         about = {"turbine": system.turbine.name, "foundation": foundation}
@@ -150,11 +157,14 @@ def animate_command(
     html: Annotated[Path, typer.Option(help="File to write.")],
     foundation: FoundationOption = "distributed_springs",
     mode: Annotated[str, typer.Option(help="Label of the mode: FA1, SS2, T1, ...")] = "FA2",
+    element: ElementOption = "euler_bernoulli",
     dry: Annotated[bool, typer.Option("--dry", help="Without water.")] = False,  # noqa: FBT002
 ) -> None:
     """Write a self-contained page with a mode moving."""
     _check_target(html)
-    system = build(load_turbine(turbine), foundation, None if dry else StillWater())
+    system = build(
+        load_turbine(turbine), foundation, None if dry else StillWater(), element=element
+    )
     write_text(html, animate(system, modes(system, min(12, system.nv)), mode.upper()))
     Console().print(f"Wrote {html}", soft_wrap=True)
 
@@ -165,16 +175,19 @@ def urdf(
     out: Annotated[Path, typer.Option(help="Directory for the URDF, its meshes and sidecar.")],
     foundation: FoundationOption = "distributed_springs",
     elements: ElementsOption = None,
+    element: ElementOption = "euler_bernoulli",
 ) -> None:
     """Write the URDF that Pinocchio runs, its meshes, and the sidecar with springs and dampers."""
     check_writable(out)
-    system = build(load_turbine(turbine), foundation, elements=elements)
+    system = build(load_turbine(turbine), foundation, elements=elements, element=element)
     for path in export_urdf(system, out):
         Console().print(f"Wrote {path}", soft_wrap=True)
 
 
 def main() -> None:
     """Entry point of the ``offwind`` command."""
+    logging.basicConfig(level=logging.WARNING, format="offwind: %(message)s")
+    logging.getLogger("offwind_pin").setLevel(logging.INFO)
     try:
         app()
     except InputError as error:

@@ -1,30 +1,25 @@
 """Generalised-alpha on small systems: order, agreement with Radau, energy, failure."""
 
 from functools import cache
-from itertools import islice
 
 import numpy as np
 import pytest
+from helpers.in_time import DenseEquations, Step, attempt, integrate
 from helpers.numerics import fitted_order
 from helpers.oscillators import Array, ElasticPendulum, Oscillator
 from scipy.integrate import solve_ivp
 
-from offwind_pin.solve.generalized_alpha import (
-    GeneralizedAlpha,
-    SecondOrderSystem,
-    Step,
-    StepFailed,
-)
+from offwind_pin.solve.generalized_alpha import CONVERGED, DIVERGED, NOT_FINITE, Method
 
 RADII = [0.0, 0.5, 0.9, 1.0]
 
 
-def integrate(
-    system: SecondOrderSystem, q: Array, v: Array, *, dt: float, end: float, radius: float
+def run(
+    system: DenseEquations, q: Array, v: Array, *, dt: float, end: float, radius: float
 ) -> list[Step]:
     """All steps, converged to rounding."""
-    method = GeneralizedAlpha(dt, radius, relative_tolerance=1e-13, increment_tolerance=1e-11)
-    return list(method.steps(system, q, v, count=round(end / dt), scale=10.0))
+    method = Method(dt, radius, 10.0, relative_tolerance=1e-13, increment_tolerance=1e-11)
+    return integrate(system, q, v, method, round(end / dt))
 
 
 @pytest.mark.parametrize("radius", RADII)
@@ -33,9 +28,7 @@ def test_order_two_on_an_oscillator(radius: float) -> None:
     system, steps, end = Oscillator(), np.array([0.08, 0.04, 0.02, 0.01]), 8.0
     errors = []
     for dt in steps:
-        path = integrate(
-            system, np.array([0.3]), np.array([-0.5]), dt=float(dt), end=end, radius=radius
-        )
+        path = run(system, np.array([0.3]), np.array([-0.5]), dt=float(dt), end=end, radius=radius)
         time = np.array([step.time for step in path])
         q, v, _ = system.exact(time, 0.3, -0.5)
         found = np.array([[step.q[0], step.v[0]] for step in path])
@@ -47,7 +40,7 @@ def test_order_two_on_an_oscillator(radius: float) -> None:
 def test_acceleration_meets_the_equations_of_motion() -> None:
     """The reported acceleration is the true one of each step's end: the residual vanishes with it."""
     system = Oscillator()
-    path = integrate(system, np.array([0.3]), np.array([-0.5]), dt=0.05, end=5.0, radius=0.5)
+    path = run(system, np.array([0.3]), np.array([-0.5]), dt=0.05, end=5.0, radius=0.5)
     left = [system.residual(step.time, step.q, step.v, step.a)[0] for step in path]
     assert np.abs(left).max() < 1e-11
 
@@ -78,7 +71,7 @@ def test_order_two_and_agreement_with_radau_on_a_pendulum(radius: float) -> None
     system, steps, end = ElasticPendulum(), np.array([0.008, 0.004, 0.002]), 2.0
     found = []
     for dt in steps:
-        last = integrate(system, *START, dt=float(dt), end=end, radius=radius)[-1]
+        last = run(system, *START, dt=float(dt), end=end, radius=radius)[-1]
         found.append(np.concatenate([last.q, last.v]))
     reference = radau(end)
     errors = [np.abs(state - reference).max() for state in found]
@@ -90,7 +83,7 @@ def test_order_two_and_agreement_with_radau_on_a_pendulum(radius: float) -> None
 def test_energy_of_a_linear_oscillator_is_kept() -> None:
     """With spectral radius 1 an undamped, unforced oscillator keeps its energy for 1000 periods."""
     system = Oscillator(damping=0.0, load=0.0)
-    path = integrate(system, np.array([1.0]), np.array([0.0]), dt=0.3, end=3000.0, radius=1.0)
+    path = run(system, np.array([1.0]), np.array([0.0]), dt=0.3, end=3000.0, radius=1.0)
     energy = [system.mass_ * s.v[0] ** 2 / 2 + system.stiffness * s.q[0] ** 2 / 2 for s in path]
     assert np.abs(np.array(energy) / energy[0] - 1).max() < 1e-9
 
@@ -98,7 +91,7 @@ def test_energy_of_a_linear_oscillator_is_kept() -> None:
 def test_energy_of_a_pendulum_does_not_drift() -> None:
     """Nonlinear: the energy error oscillates within O(dt^2) and does not grow."""
     system = ElasticPendulum()
-    path = integrate(system, *START, dt=0.01, end=30.0, radius=1.0)
+    path = run(system, *START, dt=0.01, end=30.0, radius=1.0)
     energy = np.array([system.energy(step.q, step.v) for step in path])
     # The scale is the energy above the state of rest.
     low = ElasticPendulum().energy(np.array([1 + 9.81 / 40, 0.0]), np.zeros(2))
@@ -111,7 +104,7 @@ def test_energy_of_a_pendulum_does_not_drift() -> None:
 def test_numerical_damping_takes_energy() -> None:
     """Negative control: with spectral radius 0.5 the same pendulum loses energy."""
     system = ElasticPendulum()
-    path = integrate(system, *START, dt=0.05, end=60.0, radius=0.5)
+    path = run(system, *START, dt=0.05, end=60.0, radius=0.5)
     assert system.energy(path[-1].q, path[-1].v) < system.energy(*START) - 0.1
 
 
@@ -121,8 +114,8 @@ def test_high_frequency_is_damped_as_asked() -> None:
     A threefold root makes the amplitude fall as n^2 rho^n.
     """
     system = Oscillator(mass_=1.0, damping=0.0, stiffness=1e10, load=0.0)
-    method = GeneralizedAlpha(1.0, 0.8, relative_tolerance=1e-13)
-    path = list(method.steps(system, np.array([1e-6]), np.zeros(1), count=90, scale=1e4))
+    method = Method(1.0, 0.8, 1e4, relative_tolerance=1e-13)
+    path = integrate(system, np.array([1e-6]), np.zeros(1), method, 90)
     size = np.array([abs(step.q[0]) for step in path])
     assert size[90] > 1e-17
     fall = (size[90] / size[60] / (90 / 60) ** 2) ** (1 / 30)
@@ -143,14 +136,27 @@ class HasNoSolution(Oscillator):
         return np.ones(1) if time > 0.45 else super().residual(time, q, v, a)
 
 
-@pytest.mark.parametrize(("system", "number"), [(BreaksDown(), 11), (HasNoSolution(), 5)])
-def test_failed_step_is_told(system: SecondOrderSystem, number: int) -> None:
-    """The step and its time are named, and the steps before it were given out."""
-    method = GeneralizedAlpha(0.1)
-    steps = method.steps(system, np.zeros(1), np.zeros(1), count=20, scale=1.0)
-    given = list(islice(steps, number))
-    assert given[-1].number == number - 1
-    with pytest.raises(StepFailed) as caught:
-        next(steps)
-    assert caught.value.number == number
-    assert caught.value.time == pytest.approx(0.1 * number)
+@pytest.mark.parametrize(
+    ("system", "completed", "reason"),
+    [(BreaksDown(), 10, NOT_FINITE), (HasNoSolution(), 4, DIVERGED)],
+)
+def test_failed_step_is_told(system: DenseEquations, completed: int, reason: int) -> None:
+    """The failed step and why are told; the steps before it stand, and its last finite residual."""
+    ended = attempt(system, np.zeros(1), np.zeros(1), Method(0.1, 0.9, 1.0), 20)
+    assert (ended.completed, ended.reason) == (completed, reason)
+    assert ended.error == np.inf
+    assert len(ended.steps) == 1 + completed
+    assert ended.steps[-1].time == pytest.approx(0.1 * completed)
+    assert np.array_equal(
+        ended.state[:3], [ended.steps[-1].q, ended.steps[-1].v, ended.steps[-1].a]
+    )
+    assert np.all(np.isfinite(ended.last))
+    if reason == DIVERGED:
+        assert ended.last == pytest.approx([1.0])
+
+
+def test_a_run_that_ends_well_says_so() -> None:
+    """Negative control: the honest oscillator takes all its steps, with a finite local error."""
+    ended = attempt(Oscillator(), np.zeros(1), np.zeros(1), Method(0.1, 0.9, 1.0), 20)
+    assert (ended.completed, ended.reason) == (20, CONVERGED)
+    assert 0 < ended.error < 0.01

@@ -27,6 +27,18 @@ def relative_difference(value: Array, reference: Array) -> float:
     return float(np.max(np.abs(value - reference)) / np.max(np.abs(reference)))
 
 
+def blockwise_difference(value: Array, reference: Array, kind: Sequence[str]) -> float:
+    """The same of each block of a matrix or vector by itself, entries of one kind together.
+
+    Rows and columns of forces and of moments differ in size by more than a tolerance.
+    """
+    groups = [[i for i, other in enumerate(kind) if other == one] for one in sorted(set(kind))]
+    blocks = [(group,) for group in groups]
+    if value.ndim == 2:
+        blocks = [np.ix_(rows, columns) for rows in groups for columns in groups]
+    return max(relative_difference(value[block], reference[block]) for block in blocks)
+
+
 def fourth_order_differences(function: Callable[[Array], Array], x: Array, step: float) -> Array:
     """(m, n) Jacobian by five-point differences; truncation of order step^4."""
     near = central_differences(function, x, step)

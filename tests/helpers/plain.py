@@ -101,7 +101,7 @@ def equilibrium(
     rest = np.zeros(system.nv)
     found = newton(
         lambda q: equations.residual(0.0, q, rest, rest),
-        lambda q: equations.tangents(0.0, q, rest)[0],
+        lambda q, residual: np.linalg.solve(equations.tangents(0.0, q, rest)[0], residual),
         rest,
         scale=scale,
         relative_tolerance=1e-12,

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import offwind_pin as ow
+from offwind_pin.structure.chain import NODE_JOINTS, Element
 
 Array = NDArray[np.float64]
 
@@ -27,3 +28,13 @@ def random_state(system: ow.System, seed: int = 0, size: float = 0.1) -> State:
 def without_joint_springs(system: ow.System) -> ow.System:
     """The same without the chain's own springs, which would hide every smaller term."""
     return replace(system, joint_stiffness=np.zeros(system.nv))
+
+
+def joint_kinds(system: ow.System) -> list[str]:
+    """Of each joint, whether it is prismatic or revolute: p or r."""
+    return [name[-2] for name in system.chain.joint_name]
+
+
+def element_of(system: ow.System) -> Element:
+    """Kind of element that a system is made of."""
+    return next(kind for kind, joints in NODE_JOINTS.items() if joints == system.chain.node_joints)

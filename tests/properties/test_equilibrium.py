@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 import offwind_pin as ow
-from offwind_pin.dynamics.section_loads import SectionCuts
+from offwind_pin.dynamics.compiled_chain import CompiledChain
 from offwind_pin.structure.section import lump
 
 force = st.floats(-2e6, 2e6)
@@ -49,17 +49,19 @@ def test_free_body_between_two_cuts(
     low, high = sorted((one, other))
     result = ow.static(dry, np.array([push, 0.5 * push, 0, turn, 0, turn]))
     rest = np.zeros(dry.nv)
-    equations = dry.equations(result.loads, np.inf)
-    state = equations.evaluate(0.0, result.q, rest, rest)
-    cuts = SectionCuts(equations, np.array([low, high])).loads(state, result.q, rest, rest)
-    place = state.motion.points_at(np.array([low, high])).position
+    ends = np.array([low, high])
+    chain = CompiledChain(dry, result.loads, np.inf)
+    row = chain.rows(np.zeros(1))[0]
+    cuts = chain.record(chain.sections(ends), row, result.q, rest, rest).section_load[0]
+    motion = dry.equations().chain_motion(result.q, rest)
+    place = motion.points_at(ends).position
     joints = dry.chain.joint_height
     slices = [low, *joints[(joints > low) & (joints < high)], high]
     pull, turning = np.zeros(3), np.zeros(3)
     for bottom, top in itertools.pairwise(slices):
         body = lump(dry.turbine, bottom, top)
         weight = np.array([0, 0, -dry.turbine.site.gravity * body.mass])
-        center = state.motion.points_at(np.array([body.center])).position[0]
+        center = motion.points_at(np.array([body.center])).position[0]
         pull += weight
         turning += np.cross(center - place[0], weight)
     across = np.cross(place[1] - place[0], cuts[1, :3])
@@ -79,11 +81,12 @@ def test_section_loads_are_continuous_across_joints(
     springs sit there.
     """
     state = random_state(coarse, seed, size=0.02)
-    equations = coarse.equations()
+    chain = CompiledChain(coarse)
     height = coarse.chain.joint_height[joint] + np.array([-1e-7, 1e-7])
-    assert np.abs(equations.points.height - height.mean()).min() > 1e-3
-    evaluation = equations.evaluate(1.0, state.q, state.v, state.a)
-    below, above = SectionCuts(equations, height).loads(evaluation, state.q, state.v, state.a)
+    assert np.abs(chain.arrays.point_height - height.mean()).min() > 1e-3
+    row = chain.rows(np.ones(1))[0]
+    record = chain.record(chain.sections(height), row, state.q, state.v, state.a)
+    below, above = record.section_load[0]
     for part in (slice(0, 3), slice(3, 6)):
         # A sliver of 2e-7 m weighs 1e-8 of the forces; its arm adds 2e-7 m of their moment.
         scale = np.abs(below[part]).max() + np.abs(below[:3]).max()

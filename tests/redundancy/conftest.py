@@ -1,16 +1,34 @@
 """Structures on which two computations of one thing are compared."""
 
+import itertools
+from dataclasses import replace
+
 import pytest
 from helpers.states import State, random_state
 
 import offwind_pin as ow
+from offwind_pin.structure.chain import Element
 from offwind_pin.turbines.definition import DepthLine, LinearModulus
 
+FOUNDATIONS = ("clamped", "coupled_springs", "distributed_springs")
+ELEMENTS: tuple[Element, ...] = ("euler_bernoulli", "timoshenko")
 
-@pytest.fixture(scope="session", params=["clamped", "coupled_springs", "distributed_springs"])
+
+def _name(value: tuple[str, str]) -> str:
+    return ", ".join(value)
+
+
+@pytest.fixture(scope="session", params=itertools.product(FOUNDATIONS, ELEMENTS), ids=_name)
 def any_system(undamped: ow.Turbine, request: pytest.FixtureRequest) -> ow.System:
-    """A coarse system on each foundation in still water."""
-    return ow.build(undamped, request.param, ow.StillWater(), elements=7)
+    """A coarse system on each foundation, of each kind of element, in still water."""
+    foundation, element = request.param
+    return ow.build(undamped, foundation, ow.StillWater(), elements=7, element=element)
+
+
+@pytest.fixture(scope="session")
+def in_waves(any_system: ow.System) -> ow.System:
+    """The same in waves."""
+    return replace(any_system, sea=ow.IrregularWaves(4.0, 8.0, seed=5, repeat_period=60.0))
 
 
 @pytest.fixture

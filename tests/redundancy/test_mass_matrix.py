@@ -5,7 +5,7 @@ from importlib import metadata
 import numpy as np
 import pinocchio as pin
 from helpers.numerics import relative_difference
-from helpers.states import State
+from helpers.states import State, element_of
 
 import offwind_pin as ow
 
@@ -38,7 +38,8 @@ def test_added_mass_is_in_it(any_system: ow.System, undamped: ow.Turbine) -> Non
     The water over the wetted monopile weighs rho pi D^2/4 h = 1.956e6 kg; moved sideways as a whole
     it is added once.
     """
-    dry = ow.build(undamped, any_system.foundation.name, elements=7)
+    element = element_of(any_system)
+    dry = ow.build(undamped, any_system.foundation.name, elements=7, element=element)
     rest = np.zeros(dry.nv)
     extra = any_system.equations().mass(rest) - dry.equations().mass(rest)
     water = 1025.0 * np.pi / 4 * 81.0 * 30.0

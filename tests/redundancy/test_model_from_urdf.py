@@ -3,58 +3,18 @@
 import numpy as np
 import pinocchio as pin
 import pytest
+from helpers.by_hand import build_by_hand
 from helpers.numerics import relative_difference
 from helpers.states import State
 from numpy.testing import assert_allclose
 
 import offwind_pin as ow
-from offwind_pin.structure.chain import Chain
 from offwind_pin.structure.urdf import write_sidecar, write_urdf
-
-JOINTS = {
-    "px": pin.JointModelPX,
-    "py": pin.JointModelPY,
-    "pz": pin.JointModelPZ,
-    "rx": pin.JointModelRX,
-    "ry": pin.JointModelRY,
-    "rz": pin.JointModelRZ,
-}
-
-
-def build_by_hand(chain: Chain, gravity: float) -> pin.Model:
-    """Bodies and joints straight from the chain."""
-    model = pin.Model()
-    parent, height = 0, 0.0
-
-    def joint(name: str, at: float) -> None:
-        nonlocal parent, height
-        placement = pin.SE3(np.eye(3), np.array([0.0, 0.0, at - height]))
-        parent = model.addJoint(parent, JOINTS[name[-2:]](), placement, name)
-        height = at
-
-    def body(k: int) -> None:
-        lever = np.array([0.0, 0.0, chain.body[k].center - height])
-        inertia = pin.Inertia(chain.body[k].mass, lever, chain.body[k].inertia())
-        model.appendBodyToJoint(parent, inertia, pin.SE3.Identity())
-
-    names = iter(chain.joint_name)
-    for _ in range(chain.roots):
-        joint(next(names), chain.base)
-    body(0)
-    for k in range(chain.elements):
-        for _ in range(3):
-            joint(next(names), chain.joint_height[k])
-        body(k + 1)
-    rna = pin.Inertia(chain.rna.mass, chain.rna.center_of_mass, chain.rna.inertia)
-    bearing = pin.SE3(np.eye(3), np.array([0.0, 0.0, chain.top - height]))
-    model.appendBodyToJoint(parent, rna, bearing)
-    model.gravity.linear = np.array([0.0, 0.0, -gravity])
-    return model
 
 
 @pytest.fixture
 def by_hand(any_system: ow.System) -> pin.Model:
-    return build_by_hand(any_system.chain, any_system.turbine.site.gravity)
+    return build_by_hand(any_system).model
 
 
 def test_joints_are_the_same(any_system: ow.System, by_hand: pin.Model) -> None:
@@ -100,7 +60,7 @@ def test_sidecar_carries_the_springs_of_the_system(any_system: ow.System) -> Non
     chain = any_system.chain
     damping = 0.01 * chain.joint_stiffness
     sidecar = write_sidecar(any_system.turbine, chain, damping, {})
-    assert len(sidecar["joint_stiffness"]) == 3 * chain.elements
+    assert len(sidecar["joint_stiffness"]) == len(chain.node_joints) * chain.elements
     for name, value in sidecar["joint_stiffness"].items():
         index = any_system.pin_model.joints[any_system.pin_model.getJointId(name)].idx_v
         assert value == any_system.joint_stiffness[index]

@@ -1,63 +1,124 @@
-"""Section loads against joint springs, weights and reactions."""
+"""Section loads against Pinocchio's joint forces, joint springs, weights and reactions."""
 
 import itertools
 
 import numpy as np
 import pinocchio as pin
 import pytest
+from helpers.by_hand import build_by_hand, section_loads
+from helpers.in_time import Step, integrate
+from helpers.numerics import relative_difference
+from helpers.states import State
 from numpy.testing import assert_allclose
 from numpy.typing import NDArray
 
 import offwind_pin as ow
 from offwind_pin.analysis.static import load_scale
-from offwind_pin.dynamics.section_loads import SectionCuts
-from offwind_pin.dynamics.system import Equations
+from offwind_pin.dynamics.compiled_chain import CompiledChain
 from offwind_pin.loads.tower_top import TowerTopLoad
-from offwind_pin.solve.generalized_alpha import GeneralizedAlpha, Step
+from offwind_pin.solve.generalized_alpha import Method
 from offwind_pin.structure.section import lump
 
 Array = NDArray[np.float64]
 
 
-@pytest.fixture(scope="module")
-def equations(coarse: ow.System) -> Equations:
-    """Waves and a load at the top that shakes all six directions."""
+def shaking(system: ow.System) -> CompiledChain:
+    """A system under a load at the top that shakes all six directions."""
     time = np.linspace(0, 5, 101)
     shape = np.sin(np.outer(2 * time, [1.0, 1.3, 0.7, 1.1, 0.9, 1.7]))
     load = shape * [2e6, 1e6, 5e5, 1e7, 2e7, 3e7]
     history = ow.LoadHistory(time, load, "test")
-    return coarse.equations([TowerTopLoad(coarse.chain.top, history, load[0])])
+    return CompiledChain(system, [TowerTopLoad(system.chain.top, history, load[0])])
+
+
+def recorded(
+    chain: CompiledChain, height: Array, time: float, q: Array, v: Array, a: Array
+) -> Array:
+    """(m, 6) section loads of the compiled code."""
+    record = chain.record(chain.sections(height), chain.rows(np.array([time]))[0], q, v, a)
+    return record.section_load[0]
 
 
 @pytest.fixture(scope="module")
-def moving(coarse: ow.System, equations: Equations) -> Step:
+def chain(coarse: ow.System) -> CompiledChain:
+    """Everything acting, in waves."""
+    return shaking(coarse)
+
+
+@pytest.fixture(scope="module")
+def moving(coarse: ow.System, chain: CompiledChain) -> Step:
     """A state two seconds after a start from the undeformed shape: everything moves."""
-    method = GeneralizedAlpha(0.05, relative_tolerance=1e-11)
+    method = Method(0.05, 0.9, load_scale(coarse), relative_tolerance=1e-11)
     rest = np.zeros(coarse.nv)
-    steps = method.steps(equations, rest, rest, count=40, scale=load_scale(coarse))
-    *_, last = steps
-    return last
+    return integrate(chain.equations(), rest, rest, method, 40)[-1]
 
 
-def moments_at_joints(equations: Equations, step: Step, a: Array) -> Array:
+TIME = 1.7
+TOLERANCE = 1e-11
+"""Of section loads over the largest: sums of thousands of terms, differently ordered."""
+
+
+def cut_heights(system: ow.System) -> Array:
+    """Base, top, mudline, a node, a boundary, soil nodes, and anywhere between, in no order."""
+    chain = system.chain
+    inside = np.random.default_rng(8).uniform(chain.base, chain.top, 15)
+    named = [chain.top, chain.joint_height[2], chain.boundary[3], -30.0, chain.base]
+    soil = [height for load in system.foundation.soil for height in load.height[1:9:4]]
+    return np.concatenate([named, soil, inside])
+
+
+def differences(chain: CompiledChain, height: Array, state: State, found: Array) -> float:
+    """Largest difference from Pinocchio's joint forces, of forces and of moments."""
+    expected = section_loads(chain.equations(), height, TIME, state.q, state.v, state.a)
+    return max(
+        relative_difference(found[:, part], expected[:, part])
+        for part in (slice(0, 3), slice(3, 6))
+    )
+
+
+def test_section_loads_are_pinocchio_s_joint_forces(in_waves: ow.System, state: State) -> None:
+    """At cuts anywhere, in any motion: the force in a joint that never moves, put at the cut."""
+    chain, height = shaking(in_waves), cut_heights(in_waves)
+    found = recorded(chain, height, TIME, state.q, state.v, state.a)
+    assert differences(chain, height, state, found) < TOLERANCE
+
+
+def test_a_cut_elsewhere_is_seen(in_waves: ow.System, state: State) -> None:
+    """Negative control: a cut a millimetre higher carries something else."""
+    chain, height = shaking(in_waves), cut_heights(in_waves)[5:]
+    found = recorded(chain, height + 1e-3, TIME, state.q, state.v, state.a)
+    assert differences(chain, height, state, found) > 1e3 * TOLERANCE
+
+
+def test_cutting_changes_no_joint_force(in_waves: ow.System, state: State) -> None:
+    """The second implementation's cut chain needs at its own joints what the whole one needs."""
+    cut = build_by_hand(in_waves, cut_heights(in_waves))
+    whole = in_waves.pin_model
+    expected = pin.rnea(whole, whole.createData(), state.q, state.v, state.a)
+    wide = [cut.widened(part) for part in (state.q, state.v, state.a)]
+    found = pin.rnea(cut.model, cut.model.createData(), *wide)
+    assert cut.model.nv == whole.nv + len(cut.cuts)
+    assert relative_difference(found[cut.own], expected) < 1e-12
+
+
+def moments_at_joints(chain: CompiledChain, step: Step, a: Array) -> Array:
     """(nv - roots,) section moments at the nodes along their joints' axes."""
-    chain = equations.chain
-    state = equations.evaluate(step.time, step.q, step.v, a)
-    cuts = SectionCuts(equations, chain.joint_height)
-    moment = cuts.loads(state, step.q, step.v, a)[:, 3:]
-    axes = state.motion.jacobian[3:, chain.roots :].reshape(3, -1, 3)
-    return np.einsum("nj,jnk->nk", moment, axes).ravel()
+    system = chain.system
+    load = recorded(chain, system.chain.joint_height, step.time, step.q, step.v, a)
+    jacobian = system.equations().chain_motion(step.q, step.v).jacobian
+    axes = jacobian[3:, system.chain.roots :].reshape(3, -1, 3)
+    return np.einsum("nj,jnk->nk", load[:, 3:], axes).ravel()
 
 
 def test_section_moments_are_what_springs_and_dampers_carry(
-    coarse: ow.System, equations: Equations, moving: Step
+    coarse: ow.System, chain: CompiledChain, moving: Step
 ) -> None:
     """M = K q + D v at every node, from the dynamics on one side and the joints on the other.
 
     They differ by the residual that the time step was left with.
     """
     carried = coarse.joint_stiffness * moving.q + coarse.joint_damping * moving.v
-    found = moments_at_joints(equations, moving, moving.a)
+    found = moments_at_joints(chain, moving, moving.a)
     left = max(moving.residual, 1e-15) * load_scale(coarse)
     assert moving.residual < 1e-11
     assert np.abs(coarse.joint_damping * moving.v).max() > 1e4 * left
@@ -65,11 +126,11 @@ def test_section_moments_are_what_springs_and_dampers_carry(
 
 
 def test_a_wrong_acceleration_is_seen(
-    coarse: ow.System, equations: Equations, moving: Step
+    coarse: ow.System, chain: CompiledChain, moving: Step
 ) -> None:
     """Negative control: an acceleration 1 % off breaks the equality."""
     carried = coarse.joint_stiffness * moving.q + coarse.joint_damping * moving.v
-    found = moments_at_joints(equations, moving, 1.01 * moving.a)
+    found = moments_at_joints(chain, moving, 1.01 * moving.a)
     assert np.abs(found - carried[coarse.chain.roots :]).max() > 1e-6 * load_scale(coarse)
 
 

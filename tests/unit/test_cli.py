@@ -6,6 +6,7 @@ import json
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 import xarray as xr
 import yaml
@@ -13,7 +14,8 @@ import yaml
 import offwind_pin as ow
 from offwind_pin import cli
 from offwind_pin.campaign import run as campaign_run
-from offwind_pin.solve.generalized_alpha import GeneralizedAlpha
+from offwind_pin.loads.morison import MorisonForce
+from offwind_pin.turbines.definition import Array
 
 SHORT_CASE = {
     "name": "short",
@@ -171,18 +173,14 @@ def test_failed_solve_keeps_what_there_is(
     offwind: Any, short_case: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Exit status 3; time, step and joint are told; the histories so far are on disk."""
-    honest = GeneralizedAlpha.steps
+    honest = MorisonForce.rows
 
-    def failing(self: GeneralizedAlpha, system: Any, *args: Any, **kwargs: Any) -> Any:
-        residual = system.residual
+    def failing(self: MorisonForce, time: Array, rise: Array) -> Array:
+        """The water's numbers, not a number from 10 s on, up to rounding of the time."""
+        spoiled = np.where(time > 9.999, np.nan, 0.0)
+        return honest(self, time, rise) + spoiled[:, None]
 
-        def spoiled(time: float, *state: Any) -> Any:
-            return residual(time, *state) * (1.0 if time < 10 else float("nan"))
-
-        monkeypatch.setattr(system, "residual", spoiled)
-        return honest(self, system, *args, **kwargs)
-
-    monkeypatch.setattr(GeneralizedAlpha, "steps", failing)
+    monkeypatch.setattr(MorisonForce, "rows", failing)
     out = tmp_path / "out"
     code, _, err = offwind("run", str(short_case), "--out", str(out))
     assert code == 3
@@ -211,8 +209,11 @@ def test_interrupted_run_keeps_what_there_is(
     """Ctrl-C: exit status 130, and the histories so far on disk."""
     honest = campaign_run.simulate
 
+    told = []
+
     def interrupted(*args: Any, **kwargs: Any) -> Any:
         def stop(now: float) -> None:
+            told.append(now)
             if now >= 5.0:
                 raise KeyboardInterrupt
 
@@ -223,7 +224,9 @@ def test_interrupted_run_keeps_what_there_is(
     assert code == 130
     assert "stopped" in err
     data = xr.load_dataset(tmp_path / "out" / "results.nc")
-    assert float(data["time"][-1]) == pytest.approx(5.0)
+    assert data.attrs["status"] == "interrupted"
+    assert float(data["time"][-1]) == pytest.approx(told[-1])
+    assert 5.0 <= told[-1] < SHORT_CASE["analysis"]["duration_s"]
 
 
 def test_public_example(oc6: ow.Turbine) -> None:

@@ -11,18 +11,26 @@ import offwind_pin
 
 PACKAGE = Path(offwind_pin.__file__).parent
 
+BASE = {"errors", "compiled"}
+"""Modules that every layer may import; they import nothing of the package."""
+
 ALLOWED: dict[str, set[str]] = {
     "errors": set(),
-    "turbines": {"errors"},
-    "structure": {"errors", "turbines"},
-    "loads": {"errors", "turbines"},
+    "compiled": set(),
+    "turbines": set(),
+    "structure": {"turbines"},
+    "loads": {"turbines"},
     "solve": set(),
     "results": set(),
-    "dynamics": {"errors", "turbines", "structure", "loads"},
-    "analysis": {"errors", "turbines", "structure", "loads", "dynamics", "solve", "results"},
-    "signal": {"errors", "results"},
+    "dynamics": {"turbines", "structure", "loads"},
+    "analysis": {"turbines", "structure", "loads", "dynamics", "solve", "results"},
+    "signal": {"results"},
 }
-"""What each folder may import of the package; display, campaign and cli may import everything."""
+"""What each folder may import of the package beside the base; display, campaign and cli may import
+everything."""
+
+EXCEPTIONS = {"dynamics/compiled_chain.py": {"offwind_pin.solve.generalized_alpha"}}
+"""Imports of single files: the compiled chain gives the integrator its functions to compile."""
 
 PINOCCHIO = {"structure", "dynamics"}
 
@@ -51,7 +59,10 @@ def _forbidden(room: str, imports: set[str]) -> set[str]:
         parts = name.split(".")
         if parts[0] in {"sim", "viz"} or (parts[0] == "pinocchio" and room not in PINOCCHIO):
             wrong.add(name)
-        if parts[0] == "offwind_pin" and room in ALLOWED and parts[1] not in ALLOWED[room] | {room}:
+        if parts[0] != "offwind_pin" or room not in ALLOWED:
+            continue
+        base = set() if room in BASE else BASE
+        if parts[1] not in ALLOWED[room] | base | {room}:
             wrong.add(name)
     return wrong
 
@@ -62,7 +73,14 @@ def test_imports_follow_the_layers(path: Path) -> None:
     room = _room(path)
     if room in {"__init__", "__main__"}:
         return
-    assert _forbidden(room, _imports(path)) == set()
+    allowed = EXCEPTIONS.get(path.relative_to(PACKAGE).as_posix(), set())
+    assert _forbidden(room, _imports(path)) - allowed == set()
+
+
+def test_exceptions_are_needed() -> None:
+    """An exception whose file no longer imports what it names is taken off the list."""
+    for name, imports in EXCEPTIONS.items():
+        assert imports <= _imports(PACKAGE / name)
 
 
 def test_the_rule_can_fail() -> None:
@@ -70,6 +88,9 @@ def test_the_rule_can_fail() -> None:
     assert _forbidden("loads", {"pinocchio.rnea"})
     assert _forbidden("solve", {"offwind_pin.turbines.definition"})
     assert _forbidden("structure", {"offwind_pin.dynamics.system"})
+    assert _forbidden("dynamics", {"offwind_pin.solve.newton"})
+    assert _forbidden("compiled", {"offwind_pin.errors.InputError"})
+    assert not _forbidden("solve", {"offwind_pin.compiled.kernel"})
     assert not _forbidden("dynamics", {"pinocchio.rnea", "offwind_pin.loads.soil"})
 
 
@@ -82,12 +103,16 @@ def test_every_folder_has_a_rule() -> None:
 def test_public_names() -> None:
     """The public surface changes on purpose only."""
     assert sorted(offwind_pin.__all__) == [
+        "AdaptiveStep",
+        "FixedStep",
+        "GeneralizedAlpha",
         "InputError",
         "InterruptedSimulation",
         "IrregularWaves",
         "LoadHistory",
         "ModalResult",
         "OffwindError",
+        "SciPyIVP",
         "SolverError",
         "StaticResult",
         "StillWater",

@@ -7,6 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import offwind_pin as ow
+from offwind_pin.loads.points import PointMotion
 from offwind_pin.loads.tower_top import TowerTopLoad, constant_load
 
 GOOD = """\
@@ -60,9 +61,16 @@ def test_ramp_acts_on_the_departure_from_the_mean(history: ow.LoadHistory) -> No
     """At rise 0 the mean acts, at 1 the history, half-way half of the departure."""
     mean = history.mean(0.0, 3.0)
     top = TowerTopLoad(115.0, history, mean)
-    assert_allclose(top.load(3.0, 0.0), mean)
-    assert_allclose(top.load(3.0, 1.0), history.at(3.0))
-    assert_allclose(top.load(3.0, 0.5), (mean + history.at(3.0)) / 2)
+    none, full, half, early = top.rows(
+        np.array([3.0, 3.0, 3.0, 1.0]), np.array([0.0, 1.0, 0.5, 1.0])
+    )
+    assert_allclose(none, mean)
+    assert_allclose(full, history.at(3.0))
+    assert_allclose(half, (mean + history.at(3.0)) / 2)
+    assert_allclose(early, history.at(1.0))
+    still = PointMotion(*np.zeros((4, 1, 3)))
+    applied = top.forces(3.0, still, 0.5)
+    assert_allclose(np.hstack([applied.force, applied.moment])[0], half)
 
 
 ROW = "0 1 2 3 4 5 6\n"

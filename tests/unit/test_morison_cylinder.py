@@ -1,14 +1,15 @@
 """Morison's force on a fixed vertical cylinder in a regular wave, in closed form."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
 from helpers.numerics import fitted_order
 
-from offwind_pin.loads.morison import AddedMass, MorisonForce, Strips, normal_part
+from offwind_pin.loads.morison import AddedMass, MorisonForce, Strips
 from offwind_pin.loads.points import PointMotion
 from offwind_pin.loads.waves import IrregularSea, wave_number
+from offwind_pin.turbines.definition import Array
 
 DEPTH, GRAVITY, DENSITY, DIAMETER = 30.0, 9.80665, 1025.0, 9.0
 AMPLITUDE, FREQUENCY = 1.5, 0.1
@@ -115,13 +116,45 @@ def test_drag_is_on_the_relative_velocity() -> None:
     assert force == pytest.approx(-0.5 * DENSITY * DRAG * DIAMETER * DEPTH * 0.7**2, rel=1e-13)
 
 
+def test_drag_makes_heat() -> None:
+    """In still water the heat is the work done against the drag, rho/2 Cd D |v|^3 per length."""
+    still = IrregularSea(*np.zeros((3, 0)), DEPTH, GRAVITY)
+    load = cylinder(30)
+    load = MorisonForce(load.strips, still.kinematics_at(load.height), DENSITY, ADDED, DRAG)
+    heat = load.forces(0.0, at_rest(load, velocity=-0.7), 1.0).dissipation
+    assert heat == pytest.approx(0.5 * DENSITY * DRAG * DIAMETER * DEPTH * 0.7**3, rel=1e-13)
+
+
+TILT = 0.3
+INCLINED, ACROSS = np.array([[np.sin(TILT), 0.0, np.cos(TILT)], [np.cos(TILT), 0.0, -np.sin(TILT)]])
+"""An inclined axis, and a direction normal to it in the same plane."""
+
+
 def test_force_is_normal_to_the_deflected_axis() -> None:
     """On an inclined cylinder nothing acts along its axis."""
     load = cylinder(30)
-    tilt = 0.3
-    axis = np.tile([np.sin(tilt), 0.0, np.cos(tilt)], (30, 1))
-    motion = at_rest(load)
-    inclined = PointMotion(motion.position, motion.displacement, motion.velocity, axis)
+    inclined = replace(at_rest(load), axis=np.tile(INCLINED, (30, 1)))
     force = load.forces(1.3, inclined, 1.0).force
-    assert np.abs(np.sum(force * axis, axis=1)).max() < 1e-12 * np.abs(force).max()
-    assert np.abs(normal_part(axis, axis)).max() < 1e-15
+    assert np.abs(force @ INCLINED).max() < 1e-12 * np.abs(force).max()
+    assert np.abs(force @ ACROSS).min() > 0
+
+
+def test_water_moves_with_the_cylinder_across_its_axis_only() -> None:
+    """Accelerated along its axis it is free, across it rho Ca V a is needed; so with the energy."""
+    load = cylinder(30)
+    water = AddedMass.of(load.strips, DENSITY, ADDED)
+    inclined = replace(at_rest(load), axis=np.tile(INCLINED, (30, 1)))
+    along, across, both = (
+        np.tile(vector, (30, 1)) for vector in (INCLINED, ACROSS, 3 * INCLINED + 2 * ACROSS)
+    )
+    mass = DENSITY * ADDED * np.pi / 4 * DIAMETER**2 * DEPTH
+
+    def total(acceleration: Array) -> Array:
+        return water.forces(0.0, replace(inclined, acceleration=acceleration), 1.0).force.sum(
+            axis=0
+        )
+
+    assert np.abs(total(along)).max() < 1e-12 * mass
+    assert total(across) == pytest.approx(-mass * ACROSS, rel=1e-13, abs=1e-9)
+    assert total(both) == pytest.approx(-2 * mass * ACROSS, rel=1e-13, abs=1e-9)
+    assert water.energy(replace(inclined, velocity=both)) == pytest.approx(2 * mass, rel=1e-13)

@@ -1,5 +1,6 @@
 """p-y curves: secants, tangents, plateaus, interpolation in depth."""
 
+import itertools
 from pathlib import Path
 
 import numpy as np
@@ -10,10 +11,11 @@ from numpy.testing import assert_allclose
 
 from offwind_pin.errors import InputError
 from offwind_pin.loads.soil_curves import (
-    LinearCurves,
     SoilCurves,
-    TabulatedCurves,
-    TanhCurves,
+    curve_energy,
+    linear_curves,
+    tabulated_curves,
+    tanh_curves,
 )
 
 MODULUS = np.array([0.0, 2e7, 9e8])
@@ -40,10 +42,10 @@ def table(tmp_path: Path) -> Path:
 def make(kind: str, table: Path) -> SoilCurves:
     """Three nodes of each kind of curve."""
     if kind == "linear":
-        return LinearCurves(MODULUS)
+        return linear_curves(MODULUS)
     if kind == "tanh":
-        return TanhCurves(MODULUS, ULTIMATE)
-    return TabulatedCurves.from_csv(table, np.array([0.0, 5.0, 10.0]))
+        return tanh_curves(MODULUS, ULTIMATE)
+    return tabulated_curves(table, np.array([0.0, 5.0, 10.0]))
 
 
 KINDS = ["linear", "tanh", "table"]
@@ -74,14 +76,30 @@ def test_tangent_against_differences(kind: str, y: float, table: Path) -> None:
     assert_allclose(curves.tangent(at), slope, rtol=1e-6, atol=1e-6)
 
 
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("y", [0.0, 1e-9, 2e-6, 1e-4, 0.013, 0.3])
+def test_energy_is_the_integral_of_the_resistance(kind: str, y: float, table: Path) -> None:
+    """The integral of p from 0 to y, by Gauss between the table's points; past its end p is flat."""
+    curves = make(kind, table)
+    points, weights = np.polynomial.legendre.leggauss(20)
+    edges = np.unique(np.concatenate([np.minimum([0.0, 0.01, 0.05, 0.1], y), [y]]))
+    expected = np.zeros(3)
+    for low, high in itertools.pairwise(edges):
+        for x, weight in zip((1 + points) / 2, weights / 2, strict=True):
+            p = curves.resistance(np.full(3, low + x * (high - low)))
+            expected += weight * (high - low) * p
+    found = [curve_energy(numbers, y) for numbers in curves.numbers]
+    assert_allclose(found, expected, rtol=1e-11)
+
+
 def test_linear_numbers() -> None:
     """p = k y."""
-    assert_allclose(LinearCurves(MODULUS).resistance(np.full(3, 0.01)), MODULUS * 0.01)
+    assert_allclose(linear_curves(MODULUS).resistance(np.full(3, 0.01)), MODULUS * 0.01)
 
 
 def test_tanh_plateau() -> None:
     """Far out p is the ultimate resistance, and the tangent has gone, without overflow."""
-    curves, far = TanhCurves(MODULUS, ULTIMATE), np.full(3, 100.0)
+    curves, far = tanh_curves(MODULUS, ULTIMATE), np.full(3, 100.0)
     assert_allclose(curves.resistance(far), ULTIMATE, rtol=1e-12)
     assert np.all(curves.tangent(far) < 1e-200)
 
@@ -90,7 +108,7 @@ def test_tanh_plateau() -> None:
 @given(st.floats(0.0, 10.0), st.floats(0.0, 10.0))
 def test_tanh_softens(y: float, more: float) -> None:
     """The secant falls with displacement and lies between tangent and initial modulus."""
-    curves = TanhCurves(MODULUS, ULTIMATE)
+    curves = tanh_curves(MODULUS, ULTIMATE)
     here, further = np.full(3, y), np.full(3, y + more)
     slack = 1e-12 * MODULUS
     assert np.all(curves.secant(further) <= curves.secant(here) + slack)
@@ -100,7 +118,7 @@ def test_tanh_softens(y: float, more: float) -> None:
 
 def test_table_meets_its_points_and_stays_flat_beyond(table: Path) -> None:
     """At tabulated depths p is the tabulated p; past the last y it stays."""
-    curves = TabulatedCurves.from_csv(table, np.array([0.0, 10.0]))
+    curves = tabulated_curves(table, np.array([0.0, 10.0]))
     assert_allclose(curves.resistance(np.array([0.01, 0.01])), [1e5, 4e5])
     assert_allclose(curves.resistance(np.array([0.05, 0.10])), [2e5, 6e5])
     assert_allclose(curves.resistance(np.array([7.0, 7.0])), [2e5, 6e5])
@@ -109,14 +127,14 @@ def test_table_meets_its_points_and_stays_flat_beyond(table: Path) -> None:
 
 def test_table_without_origin_is_led_to_it(table: Path) -> None:
     """The curve at 10 m starts at y = 0.01 m: a straight line joins it to the origin."""
-    curves = TabulatedCurves.from_csv(table, np.array([10.0]))
+    curves = tabulated_curves(table, np.array([10.0]))
     assert_allclose(curves.secant(np.array([0.0])), 4e5 / 0.01)
     assert_allclose(curves.resistance(np.array([0.005])), 2e5)
 
 
 def test_table_is_linear_in_depth_and_held_outside(table: Path) -> None:
     """Between depths p is interpolated at equal y; above and below the nearest curve holds."""
-    curves = TabulatedCurves.from_csv(table, np.array([-1.0, 0.0, 2.5, 10.0, 40.0]))
+    curves = tabulated_curves(table, np.array([-1.0, 0.0, 2.5, 10.0, 40.0]))
     p = curves.resistance(np.full(5, 0.01))
     assert_allclose(p, [1e5, 1e5, 1.75e5, 4e5, 4e5])
     p = curves.resistance(np.full(5, 0.1))
@@ -158,19 +176,26 @@ def test_bad_table_is_refused(tmp_path: Path, text: str, told: str) -> None:
     path = tmp_path / "bad.csv"
     path.write_text(text)
     with pytest.raises(InputError, match=told) as caught:
-        TabulatedCurves.from_csv(path, np.zeros(1))
+        tabulated_curves(path, np.zeros(1))
     assert str(path) in str(caught.value)
 
 
 def test_missing_table_is_refused(tmp_path: Path) -> None:
     """A table that is not there is named."""
     with pytest.raises(InputError, match="no such file"):
-        TabulatedCurves.from_csv(tmp_path / "none.csv", np.zeros(1))
+        tabulated_curves(tmp_path / "none.csv", np.zeros(1))
 
 
 def test_ground_without_strength_gives_nothing() -> None:
     """Where p_u is zero, resistance, secant and tangent are zero, whatever the modulus."""
-    curves = TanhCurves(np.array([1e7, 1e7]), np.array([0.0, 1e6]))
+    curves = tanh_curves(np.array([1e7, 1e7]), np.array([0.0, 1e6]))
     y = np.array([0.1, 0.1])
     assert curves.resistance(y)[0] == curves.secant(y)[0] == curves.tangent(y)[0] == 0
     assert curves.secant(y)[1] > 0
+
+
+def test_ground_without_stiffness_gives_nothing() -> None:
+    """Where the modulus is zero, as at the mudline of sand, neither force nor energy is there."""
+    (numbers,) = (curves := tanh_curves(np.zeros(1), np.array([1e6]))).numbers
+    y = np.array([0.1])
+    assert curves.resistance(y)[0] == curves.tangent(y)[0] == curve_energy(numbers, 0.1) == 0

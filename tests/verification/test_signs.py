@@ -6,6 +6,7 @@ from numpy.testing import assert_allclose
 from numpy.typing import NDArray
 
 import offwind_pin as ow
+from offwind_pin.dynamics.poses import body_poses
 
 Array = NDArray[np.float64]
 FX, FY, FZ, MX, MY, MZ = range(6)
@@ -37,7 +38,7 @@ def answer(system: ow.System, component: int, size: float) -> ow.StaticResult:
 
 def twist(system: ow.System, q: Array) -> float:
     """Rotation of the assembly about z in rad."""
-    rotation = system.equations().top_rotation(q)
+    rotation = body_poses(system, q)[-1]
     return float(np.arctan2(rotation[1, 0], rotation[0, 0]))
 
 

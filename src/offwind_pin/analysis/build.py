@@ -9,7 +9,7 @@ from offwind_pin.dynamics.foundations import make_foundation
 from offwind_pin.dynamics.sea import Sea, StillWater
 from offwind_pin.dynamics.system import System
 from offwind_pin.errors import InputError
-from offwind_pin.structure.chain import Elements, Stiffness, build_chain
+from offwind_pin.structure.chain import Element, Elements, Stiffness, build_chain
 from offwind_pin.structure.model import Scratch, build_model
 from offwind_pin.turbines.definition import Turbine
 
@@ -21,6 +21,7 @@ def build(
     *,
     elements: Elements = None,
     stiffness: Stiffness = "flexibility",
+    element: Element = "euler_bernoulli",
 ) -> System:
     """Chain, foundation and sea of a turbine as one system, its structural damping calibrated.
 
@@ -31,21 +32,22 @@ def build(
     elements : number of multibody beam elements in all, by region, or None for the default, which
         puts the first five frequencies within 0.1 % of the converged ones
     stiffness : ``"flexibility"`` or ``"midpoint"``, see :func:`build_chain`
+    element : ``"euler_bernoulli"``, or ``"timoshenko"`` for elements that shear as well
 
     Raises
     ------
     InputError : an argument or a part of the turbine that cannot be used
     """
-    system = _assemble(turbine, foundation, sea, elements, stiffness)
+    system = _assemble(turbine, foundation, sea, elements, stiffness, element)
     if turbine.structural_damping is None:
         return system
-    damping = structural_damping(turbine)
+    damping = structural_damping(turbine, element)
     joints = np.zeros(system.nv)
     joints[system.chain.roots :] = damping.of(system.chain).ravel()
     return system.with_damping(joints, damping.achieved)
 
 
-def structural_damping(turbine: Turbine) -> StructuralDamping:
+def structural_damping(turbine: Turbine, element: Element = "euler_bernoulli") -> StructuralDamping:
     """Damping factors of a turbine, calibrated on the foundation and in the water it names."""
     calibration = turbine.structural_damping
     if calibration is None:
@@ -56,12 +58,17 @@ def structural_damping(turbine: Turbine) -> StructuralDamping:
             "Add the block, or leave the structure undamped.",
         )
     sea = StillWater() if calibration.still_water else None
-    undamped = _assemble(turbine, calibration.foundation, sea, None, "flexibility")
+    undamped = _assemble(turbine, calibration.foundation, sea, None, "flexibility", element)
     return calibrate_damping(undamped, calibration)
 
 
 def _assemble(
-    turbine: Turbine, foundation: str, sea: Sea | None, elements: Elements, stiffness: Stiffness
+    turbine: Turbine,
+    foundation: str,
+    sea: Sea | None,
+    elements: Elements,
+    stiffness: Stiffness,
+    element: Element,
 ) -> System:
     """The system without structural damping."""
     if not (sea is None or isinstance(sea, Sea)):
@@ -75,6 +82,7 @@ def _assemble(
         free_root=support.root is not None,
         elements=elements,
         stiffness=stiffness,
+        element=element,
     )
     model = build_model(turbine, chain)
     springs = np.zeros(model.nv)

@@ -30,14 +30,16 @@ class StructuralDamping:
     achieved: dict[str, float]
 
     def of(self, chain: Chain) -> Array:
-        """(N, 3) damping of a chain's joints about x, y, z in N m s/rad.
+        """(N, d) damping of a chain's joints in N m s/rad and N s/m.
 
         The embedded pile has none: the springs at the mudline that stand for it in the calibration
         have none either, and its soil has dashpots of its own.
         """
         pairs = np.array([self.factor.get(region, (0.0, 0.0)) for region in chain.region])
-        about_z = pairs.mean(axis=1, keepdims=True)
-        return chain.joint_stiffness * np.hstack([pairs, about_z])
+        side_side, fore_aft = pairs.T
+        torsion = pairs.mean(axis=1)
+        plane = {"px": fore_aft, "ry": fore_aft, "py": side_side, "rx": side_side, "rz": torsion}
+        return chain.joint_stiffness * np.column_stack([plane[j] for j in chain.node_joints])
 
 
 def calibrate_damping(undamped: System, calibration: DampingCalibration) -> StructuralDamping:

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from offwind_pin.analysis.static import StaticResult, static
-from offwind_pin.dynamics.system import Equations, System
+from offwind_pin.dynamics.equations import Equations
+from offwind_pin.dynamics.system import System
 from offwind_pin.errors import InputError
 from offwind_pin.solve.eigen import natural_modes
 from offwind_pin.turbines.definition import Array

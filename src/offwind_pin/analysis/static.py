@@ -6,10 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from scipy.linalg import eigh
 
-from offwind_pin.dynamics.section_loads import SectionCuts
-from offwind_pin.dynamics.system import Equations, System
+from offwind_pin.dynamics.compiled_chain import CompiledChain
+from offwind_pin.dynamics.system import System
 from offwind_pin.errors import SolverError
 from offwind_pin.loads.points import PointLoad
 from offwind_pin.loads.tower_top import constant_load
@@ -93,40 +92,51 @@ def static(
     acting = [*loads]
     if tower_top_load is not None:
         acting.append(constant_load(system.chain.top, tower_top_load))
-    equations = system.equations(acting, ramp_time=np.inf)
+    chain = CompiledChain(system, acting, ramp_time=np.inf)
+    row = chain.rows(np.zeros(1))[0]
     rest = np.zeros(system.nv)
     scale = load_scale(system)
+
+    def correction(q: Array, residual: Array) -> Array:
+        chain.factorise(row, q, rest, rest, 0.0, 0.0)
+        return chain.correction(residual)
+
     result = newton(
-        lambda q: equations.residual(0.0, q, rest, rest),
-        lambda q: equations.tangents(0.0, q, rest)[0],
+        lambda q: chain.residual(row, q, rest, rest),
+        correction,
         rest,
         scale=scale,
         relative_tolerance=RELATIVE_TOLERANCE,
     )
     if not result.converged:
-        joint, size = equations.worst_joint(result.residual)
+        joint, size = chain.worst_joint(result.residual)
         raise SolverError(
             "no static equilibrium found (is the soil strong enough for the load?)",
             step=result.iterations,
             joint=joint,
             residual=size,
         )
-    _check_stability(equations, result.x, result.iterations)
-    return _describe(system, equations, result.x, result.iterations, result.residual, scale, acting)
-
-
-def _check_stability(equations: Equations, q: Array, iterations: int) -> None:
-    """An equilibrium counts only if every small motion away from it needs work."""
-    stiffness, _ = equations.tangents(0.0, q, np.zeros_like(q))
-    lowest, motion = eigh((stiffness + stiffness.T) / 2, subset_by_index=(0, 0))
-    if lowest[0] <= 0:
-        joint, size = equations.worst_joint(motion[:, 0])
+    chain.factorise(row, result.x, rest, rest, 0.0, 0.0)
+    if chain.unstable_directions():
+        joint, size = chain.worst_joint(result.x)
         raise SolverError(
             "the equilibrium is unstable: the structure buckles under its weight and the load",
-            step=iterations,
+            step=result.iterations,
             joint=joint,
-            residual=size,
+            residual=float(np.max(np.abs(result.residual))),
         )
+    state = chain.record(chain.sections(system.chain.boundary), row, result.x, rest, rest)
+    return StaticResult(
+        q=result.x,
+        height=system.chain.boundary,
+        displacement=state.displacement[0],
+        rotation=_axis_rotation(chain, system.chain.boundary),
+        section_load=state.section_load[0],
+        iterations=result.iterations,
+        residual=float(np.max(np.abs(result.residual))) / scale,
+        mudline=system.turbine.site.mudline,
+        loads=tuple(acting),
+    )
 
 
 def load_scale(system: System) -> float:
@@ -139,30 +149,10 @@ def load_scale(system: System) -> float:
     return system.turbine.site.gravity * mass * (chain.top - chain.base) / 100
 
 
-def _describe(
-    system: System,
-    equations: Equations,
-    q: Array,
-    iterations: int,
-    residual: Array,
-    scale: float,
-    loads: Sequence[PointLoad],
-) -> StaticResult:
-    rest = np.zeros_like(q)
-    state = equations.evaluate(0.0, q, rest, rest)
-    cuts = SectionCuts(equations, system.chain.boundary)
-    points = state.motion.points(cuts.points)
-    return StaticResult(
-        q=q,
-        height=system.chain.boundary,
-        displacement=points.displacement,
-        rotation=axis_rotation(points.axis),
-        section_load=cuts.loads(state, q, rest, rest),
-        iterations=iterations,
-        residual=float(np.max(np.abs(residual))) / scale,
-        mudline=system.turbine.site.mudline,
-        loads=tuple(loads),
-    )
+def _axis_rotation(chain: CompiledChain, height: Array) -> Array:
+    """(m, 3) rotation of the axis at heights (m,), of the state last evaluated."""
+    body = chain.system.chain.body_at(height)
+    return axis_rotation(chain.arrays.rotation[body, :, 2])
 
 
 def axis_rotation(axis: Array) -> Array:

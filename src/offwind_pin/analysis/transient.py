@@ -2,25 +2,42 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Callable, Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from offwind_pin.analysis.static import load_scale, static
+from offwind_pin.analysis.integrators import (
+    GeneralizedAlpha,
+    Integrator,
+    MotionState,
+    Records,
+    Sections,
+    StepFailed,
+    first_record,
+)
+from offwind_pin.analysis.static import static
+from offwind_pin.dynamics.compiled_chain import CompiledChain
+from offwind_pin.dynamics.equations import smooth_ramp
 from offwind_pin.dynamics.sea import IrregularWaves
-from offwind_pin.dynamics.section_loads import SectionCuts
-from offwind_pin.dynamics.system import Equations, System, smooth_ramp
+from offwind_pin.dynamics.system import System
 from offwind_pin.errors import InputError, InterruptedSimulation, SolverError
 from offwind_pin.loads.points import PointLoad
 from offwind_pin.loads.tower_top import LoadHistory, TowerTopLoad, constant_load
-from offwind_pin.results.dataset import make_dataset
-from offwind_pin.solve.generalized_alpha import GeneralizedAlpha, Step, StepFailed
+from offwind_pin.results.blocks import BLOCK_FOLDER, Block, BlockStore, FolderStore, MemoryStore
+from offwind_pin.results.dataset import HistoryWriter
+from offwind_pin.solve.steps import FixedStep
 from offwind_pin.structure.urdf import definition_hash
 from offwind_pin.turbines.definition import Array
 
 Progress = Callable[[float], None]
+
+_BLOCK_SECONDS = 20.0
+_BLOCK_STEPS = 2000
+"""A block ends with an output and holds no more than either; it is what a killed run loses."""
 
 
 def simulate(
@@ -32,10 +49,14 @@ def simulate(
     ramp: float = 0.0,
     output_dt: float | None = None,
     spectral_radius: float = 0.9,
+    integrator: Integrator | None = None,
+    heights: Sequence[float] | None = None,
+    segments: Sequence[tuple[float, float]] | None = None,
+    directory: Path | str | None = None,
     provenance: dict[str, Any] | None = None,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Motion under waves and loads, by generalised-alpha with a converged residual every step.
+    """Motion under waves and loads, by default by generalised-alpha with a fixed step.
 
     The start is the static state under the mean loads. During the ramp, waves and the departures of
     the loads from their means rise to full strength.
@@ -49,14 +70,24 @@ def simulate(
     ramp : seconds over which the fluctuations rise
     output_dt : interval of the output in s, a multiple of dt; by default every step
     spectral_radius : numerical damping at infinite frequency, 1 for none
+    integrator : instead of ``dt`` and ``spectral_radius``, see
+        :mod:`offwind_pin.analysis.integrators`
+    heights : in m, where motion and section loads are recorded, by default the element boundaries;
+        mudline and yaw bearing are added
+    segments : pairs of heights in m whose equilibrium is recorded as ``segment_imbalance``, by
+        default the whole structure and its parts above and below the mudline
+    directory : where the results are kept as they come, ``results.nc`` in the end, so that memory
+        does not grow with the duration; the same call after a stop goes on where it left off, to
+        bitwise the same results
     provenance : further attributes for the dataset
-    progress : called with the simulated time after every step
+    progress : called with the simulated time as it grows
 
     Returns
     -------
     Dataset with ``displacement``, ``acceleration``, ``section_force`` and ``section_moment`` over
-    time and height (element boundaries), the mudline and tower-top channels, the applied load, the
-    waves, and the solver's own account; see ``attrs`` for versions, seeds and settings.
+    time and height, the mudline and tower-top channels, the applied load, the waves, the ledger of
+    energies, and the solver's own account; see ``attrs`` for versions, seeds and settings. With a
+    ``directory`` it reads from the file there, channel by channel as they are asked for.
 
     Raises
     ------
@@ -64,122 +95,150 @@ def simulate(
     SolverError : a step did not converge; ``results`` holds the dataset so far
     InterruptedSimulation : the user stopped it; ``results`` holds the dataset so far
     """
-    every = _check_settings(duration, dt, ramp, output_dt, spectral_radius)
+    _check_settings(duration, dt, ramp, output_dt)
+    interval = dt if output_dt is None else output_dt
+    method = integrator or GeneralizedAlpha(FixedStep(dt), spectral_radius)
+    outputs = round(duration / interval)
+    if abs(outputs * interval - duration) > 1e-6 * duration:
+        raise InputError(
+            "duration", duration, f"a multiple of {interval} s, the output's interval", "Adjust it."
+        )
     acting = [_at_yaw_bearing(system, load, ramp, duration) for load in loads]
+    chain = CompiledChain(system, acting, ramp_time=ramp)
+    parts = _segments(system, segments)
+    sections = chain.sections(_recorded_heights(system, heights, parts), parts)
     start = static(system, loads=acting)
-    equations = system.equations(acting, ramp_time=ramp)
-    count = round(duration / dt)
-    recorder = _Recorder(equations, count // every + 1)
-    attributes = _provenance(system, acting, dt, ramp, spectral_radius) | (provenance or {})
-    method = GeneralizedAlpha(dt, spectral_radius)
-    steps = method.steps(
-        equations, start.q, np.zeros(system.nv), count=count, scale=load_scale(system)
+    state = method.begin(chain, start.q, interval)
+    attributes = _provenance(system, acting, ramp, interval, method) | (provenance or {})
+    run = {
+        **attributes,
+        "duration_s": duration,
+        "inputs_sha256": _fingerprint(chain, sections, duration),
+    }
+    store: BlockStore = MemoryStore()
+    if directory is not None:
+        store = FolderStore(Path(directory) / BLOCK_FOLDER, run)
+    writer = HistoryWriter(
+        system.turbine.site.mudline,
+        sections[0].height,
+        parts,
+        [load.name for load in chain.loads],
+        chain.stores,
+        attributes,
     )
+    if len(store) == 0:
+        state, records = first_record(chain, sections, state)
+        store.append(_block(chain, state, records))
     try:
-        for step in steps:
-            if step.number % every == 0:
-                recorder.record(step)
+        state = _state(store.last())
+        per_block = _outputs_per_block(method, interval)
+        done = round(state.time / interval)
+        while done < outputs:
+            until = min(done + per_block - done % per_block, outputs)
+            times = interval * np.arange(done + 1, until + 1, dtype=float)
+            state, records = method.cross(chain, sections, state, times)
+            store.append(_block(chain, state, records))
+            done = until
             if progress is not None:
-                progress(step.time)
+                progress(state.time)
     except StepFailed as failure:
-        joint, size = equations.worst_joint(failure.residual)
+        if failure.crossed is not None:
+            store.append(_block(chain, *failure.crossed))
+        joint, size = chain.worst_joint(failure.residual)
         raise SolverError(
-            "the time step did not converge (a smaller dt may help)",
+            f"the time step did not converge: {failure.reason} (a smaller dt may help)",
             time=failure.time,
-            step=failure.number,
+            step=round(failure.time / dt),
             joint=joint,
             residual=size,
-            results=recorder.dataset(attributes | {"status": "failed"}),
+            results=writer.write(store, "failed", directory),
         ) from None
     except KeyboardInterrupt:
         raise InterruptedSimulation(
-            recorder.last_time, recorder.dataset(attributes | {"status": "interrupted"})
+            _state(store.last()).time, writer.write(store, "interrupted", directory)
         ) from None
-    return recorder.dataset(attributes | {"status": "complete"})
+    data = writer.write(store, "complete", directory)
+    if isinstance(store, FolderStore):
+        store.remove()
+    return data
 
 
-class _Recorder:
-    """Channels of the steps so far, in arrays set aside at the start."""
+def _outputs_per_block(method: Integrator, interval: float) -> int:
+    steps = method.describe().get("dt_s")
+    per_output = 1 if steps is None else max(1, round(interval / float(steps)))
+    return max(1, min(round(_BLOCK_SECONDS / interval), _BLOCK_STEPS // per_output))
 
-    def __init__(self, equations: Equations, capacity: int) -> None:
-        system = equations.system
-        self._equations = equations
-        self._cuts = SectionCuts(equations, system.chain.boundary)
-        self._tops = [load for load in equations.loads if isinstance(load, TowerTopLoad)]
-        self._size = 0
-        heights = len(system.chain.boundary)
-        self._time = np.zeros(capacity)
-        self._displacement = np.zeros((capacity, heights, 3))
-        self._acceleration = np.zeros((capacity, heights, 3))
-        self._section_load = np.zeros((capacity, heights, 6))
-        self._tower_top = np.zeros((capacity, 6))
-        self._iterations = np.zeros(capacity, dtype=np.int32)
-        self._residual = np.zeros(capacity)
 
-    @property
-    def last_time(self) -> float:
-        return float(self._time[max(self._size - 1, 0)])
-
-    def record(self, step: Step) -> None:
-        i = self._size
-        state = self._equations.evaluate(step.time, step.q, step.v, step.a)
-        points = state.motion.points(self._cuts.points)
-        rise = smooth_ramp(step.time, self._equations.ramp_time)
-        self._time[i] = step.time
-        self._displacement[i] = points.displacement
-        self._acceleration[i] = state.motion.point_acceleration(
-            self._cuts.points, points, state.twist_rate
+def _recorded_heights(
+    system: System, heights: Sequence[float] | None, segments: Sequence[tuple[float, float]]
+) -> Array:
+    """Heights of the records, rising: those asked for, mudline, top, and the segments' ends."""
+    chain = system.chain
+    asked = chain.boundary if heights is None else np.asarray(heights, dtype=float)
+    ends = np.array([z for pair in segments for z in pair])
+    everything = np.concatenate([asked, [system.turbine.site.mudline, chain.top], ends])
+    outside = ~np.isfinite(everything) | (everything < chain.base) | (everything > chain.top)
+    if np.any(outside):
+        raise InputError(
+            "heights",
+            float(everything[outside][0]),
+            f"{chain.base} to {chain.top} m, from the base to the yaw bearing",
+            "Choose heights on the structure.",
         )
-        self._section_load[i] = self._cuts.loads(state, step.q, step.v, step.a)
-        for top in self._tops:
-            self._tower_top[i] += top.load(step.time, rise)
-        self._iterations[i], self._residual[i] = step.iterations, step.residual
-        self._size = i + 1
-
-    def dataset(self, attributes: dict[str, Any]) -> xr.Dataset:
-        n = self._size
-        system = self._equations.system
-        time = self._time[:n]
-        elevation = np.zeros(n)
-        if isinstance(system.sea, IrregularWaves):
-            rise = np.array([smooth_ramp(t, self._equations.ramp_time) for t in time])
-            elevation = rise * system.sea.realise(system.turbine).elevation(time)
-        return make_dataset(
-            time,
-            system.chain.boundary,
-            displacement=self._displacement[:n],
-            acceleration=self._acceleration[:n],
-            section_load=self._section_load[:n],
-            tower_top_load=self._tower_top[:n],
-            wave_elevation=elevation,
-            iterations=self._iterations[:n],
-            residual=self._residual[:n],
-            mudline=system.turbine.site.mudline,
-            attributes=attributes,
-        )
+    rising = np.unique(everything)
+    return rising[np.concatenate([[True], np.diff(rising) > 1e-9])]
 
 
-def _check_settings(
-    duration: float, dt: float, ramp: float, output_dt: float | None, spectral_radius: float
-) -> int:
-    """Number of steps between outputs."""
-    for name, value, low in (("duration", duration, 0.0), ("dt", dt, 0.0)):
-        if not (np.isfinite(value) and value > low):
+def _segments(
+    system: System, segments: Sequence[tuple[float, float]] | None
+) -> list[tuple[float, float]]:
+    """The segments asked for; by default the whole, and what is above and below the mudline."""
+    chain, mudline = system.chain, system.turbine.site.mudline
+    if segments is None:
+        pile = [(chain.base, mudline)] if chain.base < mudline else []
+        above = [(mudline, chain.top)]
+        return [(chain.base, chain.top), *above, *pile] if pile else above
+    for low, high in segments:
+        if not low < high:
+            raise InputError("segments", (low, high), "a lower and a higher end", "Exchange them.")
+    return [(float(low), float(high)) for low, high in segments]
+
+
+def _block(chain: CompiledChain, state: MotionState, records: Records) -> Block:
+    """Records and the state at their end, with the loads that depend on time alone."""
+    time = records["time"]
+    rise = smooth_ramp(time, chain.ramp_time)
+    sea = chain.system.sea
+    elevation = np.zeros(len(time))
+    if isinstance(sea, IrregularWaves):
+        elevation = rise * sea.realise(chain.system.turbine).elevation(time)
+    tops = [load.rows(time, rise) for load in chain.loads if isinstance(load, TowerTopLoad)]
+    return {
+        **records,
+        "tower_top_load": np.sum([np.zeros((len(time), 6)), *tops], axis=0),
+        "wave_elevation": elevation,
+        **{f"state_{name}": np.asarray(value) for name, value in state._asdict().items()},
+    }
+
+
+def _state(block: Block) -> MotionState:
+    """The state at the end of a block."""
+    values = {name: block[f"state_{name}"] for name in MotionState._fields}
+    return MotionState(
+        time=float(values["time"]),
+        vectors=values["vectors"],
+        energy=values["energy"],
+        power=values["power"],
+        steps=int(values["steps"]),
+    )
+
+
+def _check_settings(duration: float, dt: float, ramp: float, output_dt: float | None) -> None:
+    for name, value in (("duration", duration), ("dt", dt), ("output_dt", output_dt)):
+        if value is not None and not (np.isfinite(value) and value > 0):
             raise InputError(name, value, "a positive number of seconds", "Correct it.")
     if not 0 <= ramp < duration:
         raise InputError("ramp", ramp, f"0 to less than the duration ({duration} s)", "Shorten it.")
-    if output_dt is not None and not (np.isfinite(output_dt) and output_dt > 0):
-        raise InputError("output_dt", output_dt, "a positive number of seconds", "Correct it.")
-    if not 0 <= spectral_radius <= 1:
-        raise InputError("spectral_radius", spectral_radius, "0 to 1", "Correct it.")
-    if abs(duration / dt - round(duration / dt)) > 1e-6:
-        raise InputError("duration", duration, f"a multiple of dt = {dt} s", "Adjust one of them.")
-    every = 1 if output_dt is None else round(output_dt / dt)
-    if every < 1 or (output_dt is not None and abs(every * dt - output_dt) > 1e-9):
-        raise InputError(
-            "output_dt", output_dt, f"a multiple of dt = {dt} s", "Adjust one of them."
-        )
-    return every
 
 
 def _at_yaw_bearing(
@@ -199,8 +258,23 @@ def _at_yaw_bearing(
     return TowerTopLoad(system.chain.top, load, load.mean(ramp, duration))
 
 
+def _fingerprint(chain: CompiledChain, sections: Sections, duration: float) -> str:
+    """Hash of everything that determines the results besides the settings: loads and heights."""
+    digest = hashlib.sha256()
+    numbers = chain.rows(np.linspace(0.0, duration, 7))
+    arrays = [numbers, sections[0].height, sections[1].cut, chain.arrays.restraint_numbers]
+    arrays += [chain.arrays.stiffness, chain.arrays.damping]
+    for load in chain.loads:
+        arrays += [load.height, load.constants]
+        if isinstance(load, TowerTopLoad):
+            arrays += [load.history.time, load.history.load, load.mean]
+    for array in arrays:
+        digest.update(np.ascontiguousarray(array).tobytes())
+    return digest.hexdigest()
+
+
 def _provenance(
-    system: System, loads: Sequence[PointLoad], dt: float, ramp: float, spectral_radius: float
+    system: System, loads: Sequence[PointLoad], ramp: float, interval: float, method: Integrator
 ) -> dict[str, Any]:
     origins = [load.history for load in loads if isinstance(load, TowerTopLoad)]
     surrogates = [system.foundation.surrogate, *(history.surrogate for history in origins)]
@@ -213,9 +287,8 @@ def _provenance(
         "tower_top_load_origin": "; ".join(history.origin for history in origins) or "none",
         "surrogates": " | ".join(text for text in surrogates if text) or "none",
         "elements": system.chain.elements,
-        "integrator": "generalised-alpha",
-        "dt_s": dt,
+        "element": "timoshenko" if "px" in system.chain.node_joints else "euler_bernoulli",
         "ramp_s": ramp,
-        "spectral_radius": spectral_radius,
-        "residual_tolerance": GeneralizedAlpha(dt).relative_tolerance,
+        "output_dt_s": interval,
+        **method.describe(),
     }

@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from offwind_pin.structure.chain import MOST_ELEMENTS
+from offwind_pin.structure.chain import MOST_ELEMENTS, Element
 from offwind_pin.turbines.definition import Definition, NonNegative, Number, Positive
 from offwind_pin.turbines.reader import find_definition, read_model
 
@@ -130,6 +130,7 @@ class Case(Definition):
     ]
     seed: Annotated[int, Field(ge=0, lt=2**31)] = 1
     elements: Annotated[int, Field(ge=1, le=MOST_ELEMENTS)] | dict[str, int] | None = None
+    element: Element = "euler_bernoulli"
     published: tuple[PublishedValue, ...] = ()
 
     @model_validator(mode="after")

@@ -43,6 +43,7 @@ from offwind_pin.dynamics.system import System
 from offwind_pin.errors import InputError, InterruptedSimulation, SolverError
 from offwind_pin.loads.synthetic_wind import SyntheticWind, operate_rotor
 from offwind_pin.loads.tower_top import LoadHistory, read_load_history
+from offwind_pin.results.blocks import time_reached
 from offwind_pin.results.dataset import versions
 from offwind_pin.results.files import write_json, write_netcdf
 from offwind_pin.results.states import modal_dataset, static_dataset
@@ -70,7 +71,8 @@ def run_case(
 ) -> dict[str, Any]:
     """Solve a case and write ``summary.json``, ``results.nc`` and ``report.html``.
 
-    Everything the user gave is checked before anything is written.
+    Everything the user gave is checked before anything is written. A transient case that was
+    stopped goes on where it left off.
 
     Parameters
     ----------
@@ -89,25 +91,28 @@ def run_case(
     """
     check_writable(out)
     turbine = _turbine(case, folder)
+    begun = time_reached(out)
     clock = time.perf_counter()
     try:
-        result = _solve(case, turbine, folder, progress)
+        result = _solve(case, turbine, folder, out, progress)
     except (SolverError, InterruptedSimulation) as stopped:
-        _write_partial(case, out, stopped, time.perf_counter() - clock)
+        _write_partial(case, out, stopped, time.perf_counter() - clock, begun)
         raise
     wall = time.perf_counter() - clock
-    summary = _head(case, "complete", wall, result.summary.pop("simulated_s", 0.0))
+    summary = _head(case, "complete", wall, result.summary.pop("simulated_s", 0.0), begun)
     summary |= result.summary | {"structural_damping": summarise_damping(result.system)}
     _write(case, turbine, out, replace(result, summary=summary))
     return summary
 
 
-def _solve(case: Case, turbine: Turbine, folder: Path, progress: Progress | None) -> CaseResult:
+def _solve(
+    case: Case, turbine: Turbine, folder: Path, out: Path, progress: Progress | None
+) -> CaseResult:
     if isinstance(case.analysis, StaticAnalysis):
         return _solve_static(case, turbine, case.analysis)
     if isinstance(case.analysis, ModalAnalysis):
         return _solve_modes(case, turbine, case.analysis)
-    return _solve_transient(case, turbine, case.analysis, folder, progress)
+    return _solve_transient(case, turbine, case.analysis, folder, out, progress)
 
 
 def _solve_static(case: Case, turbine: Turbine, analysis: StaticAnalysis) -> CaseResult:
@@ -154,6 +159,7 @@ def _solve_transient(
     turbine: Turbine,
     analysis: TransientAnalysis,
     folder: Path,
+    out: Path,
     progress: Progress | None,
 ) -> CaseResult:
     system = _build(case, turbine, case.foundation, analysis.duration)
@@ -166,6 +172,7 @@ def _solve_transient(
         loads,
         ramp=analysis.ramp,
         output_dt=analysis.output_dt,
+        directory=out,
         provenance={"case": case.name, "seed": case.seed},
         progress=None if progress is None else lambda now: progress(now, analysis.duration),
     )
@@ -204,7 +211,7 @@ def _build(case: Case, turbine: Turbine, foundation: str, duration: float = 0.0)
     elements = case.elements
     if isinstance(elements, dict) and foundation != "distributed_springs":
         elements = {region: count for region, count in elements.items() if region != "pile"}
-    return build(turbine, foundation, _sea(case, duration), elements=elements)
+    return build(turbine, foundation, _sea(case, duration), elements=elements, element=case.element)
 
 
 def _sea(case: Case, duration: float) -> Sea | None:
@@ -287,13 +294,15 @@ def _attributes(system: System) -> dict[str, Any]:
     }
 
 
-def _head(case: Case, status: str, wall: float, simulated: float) -> dict[str, Any]:
+def _head(case: Case, status: str, wall: float, simulated: float, begun: float) -> dict[str, Any]:
+    """First keys of a summary; a run that went on from ``begun`` seconds did the rest only."""
     return {
         "case": case.name,
         "status": status,
         "wall_s": wall,
         "simulated_s": simulated,
-        "realtime_factor": simulated / wall,
+        "realtime_factor": max(simulated - begun, 0.0) / wall,
+        **({"resumed_at_s": begun} if begun > 0 else {}),
         **versions(),
     }
 
@@ -318,7 +327,8 @@ def _write(case: Case, turbine: Turbine, out: Path, result: CaseResult) -> None:
     )
     # The summary is written last, so that where it stands the other files belong to it.
     (out / "summary.json").unlink(missing_ok=True)
-    write_netcdf(out / "results.nc", result.data.assign_attrs(case=case.name))
+    if histories is None:
+        write_netcdf(out / "results.nc", result.data.assign_attrs(case=case.name))
     write_report(out / "report.html", report)
     write_json(out / "summary.json", result.summary)
 
@@ -332,17 +342,20 @@ def _wind_report(case: Case, turbine: Turbine) -> WindDescription | None:
 
 
 def _write_partial(
-    case: Case, out: Path, stopped: SolverError | InterruptedSimulation, wall: float
+    case: Case,
+    out: Path,
+    stopped: SolverError | InterruptedSimulation,
+    wall: float,
+    begun: float,
 ) -> None:
-    """What there is of a stopped run: the histories so far, and a summary that says so."""
+    """A summary that says so of a stopped run; its histories so far stand in ``results.nc``."""
     status = "failed" if isinstance(stopped, SolverError) else "interrupted"
-    reached = 0.0
-    for stale in ("report.html", "results.nc", "summary.json"):
-        (out / stale).unlink(missing_ok=True)
-    if stopped.results is not None and stopped.results.sizes["time"]:
-        write_netcdf(out / "results.nc", stopped.results)
-        reached = float(stopped.results["time"][-1])
-    write_json(out / "summary.json", _head(case, status, wall, reached) | {"message": str(stopped)})
+    (out / "report.html").unlink(missing_ok=True)
+    if stopped.results is None:
+        (out / "results.nc").unlink(missing_ok=True)
+    reached = 0.0 if stopped.results is None else float(stopped.results["time"][-1])
+    head = _head(case, status, wall, reached, begun)
+    write_json(out / "summary.json", head | {"message": str(stopped)})
 
 
 def _turbine(case: Case, folder: Path) -> Turbine:

@@ -8,44 +8,14 @@ joints; distributed springs start at the toe, with a restraint there and point l
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 
+from offwind_pin.dynamics.restraints import LinearRestraint, RootRestraint
 from offwind_pin.errors import InputError
 from offwind_pin.loads.points import PointLoad
 from offwind_pin.loads.soil import SoilSprings, dashpot_time
-from offwind_pin.turbines.definition import Array, Turbine
-
-
-class RootRestraint(Protocol):
-    """What resists the six joints of the root: x, y, z in m, rotations about x, y, z in rad."""
-
-    def reaction(self, displacement: Array, velocity: Array) -> Array:
-        """(6,) generalised force that the restraint takes up, in N and N m."""
-
-    def tangents(self, displacement: Array, velocity: Array) -> tuple[Array, Array]:
-        """(6, 6) derivatives of the reaction by displacement and by velocity."""
-
-    def describe(self) -> dict[str, object]:
-        """Plain data for the sidecar."""
-
-
-@dataclass(frozen=True, eq=False)
-class LinearRestraint:
-    """Springs and dashpots: stiffness and damping (6, 6) in N, m, rad and s."""
-
-    stiffness: Array
-    damping: Array
-
-    def reaction(self, displacement: Array, velocity: Array) -> Array:
-        return self.stiffness @ displacement + self.damping @ velocity
-
-    def tangents(self, displacement: Array, velocity: Array) -> tuple[Array, Array]:
-        return self.stiffness, self.damping
-
-    def describe(self) -> dict[str, object]:
-        return {"stiffness": self.stiffness.tolist(), "damping": self.damping.tolist()}
+from offwind_pin.turbines.definition import Turbine
 
 
 @dataclass(frozen=True, eq=False)

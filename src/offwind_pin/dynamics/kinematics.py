@@ -1,9 +1,9 @@
-"""Motion of points on the chain's axis, and point forces as generalised forces, in O(N).
+"""Motion of points on the chain's axis, point forces as generalised forces, and their derivatives.
 
 The world-frame Jacobian S that Pinocchio fills in one call holds, in column j, the spatial velocity
 of the world's origin per unit velocity of joint j. The chain is serial, so the spatial velocity of
 a body is a cumulative sum over the columns below it, and the generalised force of joint j is the
-product of column j with the sum of all wrenches above it. Nothing loops over points.
+product of column j with the sum of all wrenches above it.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from offwind_pin.loads.points import PointMotion
 from offwind_pin.structure.chain import Chain, NDArrayInt
@@ -33,71 +34,109 @@ class AxisPoints:
         body = chain.body_at(height)
         return AxisPoints(height, body, height - chain.origin[body])
 
+    def __getitem__(self, part: slice) -> AxisPoints:
+        return AxisPoints(self.height[part], self.body[part], self.offset[part])
+
+
+@dataclass(frozen=True, eq=False)
+class PointDerivatives:
+    """Derivatives (n, 3, nv) of the motion of points by q, v and a.
+
+    position : of the position by q, of the velocity by v, and of the acceleration by a
+    axis, velocity_by_q, acceleration_by_q, acceleration_by_v : of these by q or v
+    """
+
+    position: Array
+    axis: Array
+    velocity_by_q: Array
+    acceleration_by_q: Array
+    acceleration_by_v: Array
+
 
 class ChainMotion:
-    """State of the chain's axis for one configuration and velocity.
+    """State of the chain's axis for one configuration, velocity and acceleration.
 
     Parameters
     ----------
     chain : the chain
-    jacobian : (6, nv) world-frame joint Jacobian, linear rows first
-    root : (3,) translation of the base in m
-    v : (nv,) joint velocities
+    jacobian, jacobian_rate : (6, nv) world-frame joint Jacobian and its time derivative, linear
+        rows first
+    q, v, a : (nv,) joint displacements, velocities and accelerations
 
     Attributes
     ----------
     axis, origin : (N + 1, 3) unit vector along each body and place of its frame in m
-    twist : (N + 1, 6) spatial velocity of each body at the world's origin
+    twist, twist_rate : (N + 1, 6) spatial velocity of each body at the world's origin, and its rate
     """
 
-    def __init__(self, chain: Chain, jacobian: Array, root: Array, v: Array) -> None:
+    def __init__(
+        self, chain: Chain, jacobian: Array, jacobian_rate: Array, q: Array, v: Array, a: Array
+    ) -> None:
         self.chain = chain
         self.jacobian = jacobian
         self.dof_body = dof_body(chain)
-        self._last_dof = chain.roots + 3 * np.arange(chain.elements + 1) - 1
-        about_z = jacobian[3:, self._last_dof] if chain.free_root else self._clamped_axes(jacobian)
-        self.axis = about_z.T
-        rise = np.diff(chain.origin)[:, None] * self.axis[:-1]
-        base = np.array([[0.0, 0.0, chain.base]]) + root
-        self.origin = base + np.concatenate([np.zeros((1, 3)), np.cumsum(rise, axis=0)])
-        self.twist = self.body_sums(jacobian * v)
-
-    def _clamped_axes(self, jacobian: Array) -> Array:
-        return np.concatenate([[[0.0], [0.0], [1.0]], jacobian[3:, self._last_dof[1:]]], axis=1)
-
-    def body_sums(self, columns: Array) -> Array:
-        """(N + 1, 6) sums of the joint columns (6, nv) at and below each body."""
-        total = np.zeros((6, columns.shape[1] + 1))
-        np.cumsum(columns, axis=1, out=total[:, 1:])
-        return total[:, self._last_dof + 1].T
+        joints = len(chain.node_joints)
+        self._last_dof = chain.roots + joints * np.arange(chain.elements + 1) - 1
+        self.axis = np.tile([0.0, 0.0, 1.0], (chain.elements + 1, 1))
+        turned = self._last_dof >= 0
+        self.axis[turned] = jacobian[3:, self._last_dof[turned]].T
+        rise = np.zeros((chain.elements + 1, 3))
+        rise[0] = [0.0, 0.0, chain.base]
+        rise[1:] = np.diff(chain.origin)[:, None] * self.axis[:-1]
+        slides = [i for i, name in enumerate(chain.joint_name) if name[-2] == "p"]
+        np.add.at(rise, self.dof_body[slides], (jacobian[:3, slides] * q[slides]).T)
+        self.origin = np.cumsum(rise, axis=0)
+        self._through = np.cumsum(jacobian * v, axis=1)
+        self._rate_through = np.cumsum(jacobian * a + jacobian_rate * v, axis=1)
+        self.twist = self._bodies(self._through)
+        self.twist_rate = self._bodies(self._rate_through)
 
     def points(self, points: AxisPoints) -> PointMotion:
-        """Position, displacement, velocity and axis of points."""
+        """Position, displacement, velocity, axis and acceleration of points."""
         axis = self.axis[points.body]
         position = self.origin[points.body] + points.offset[:, None] * axis
         displacement = position.copy()
         displacement[:, 2] -= points.height
-        twist = self.twist[points.body]
-        velocity = twist[:, :3] + cross(twist[:, 3:], position)
-        return PointMotion(position, displacement, velocity, axis)
+        twist, rate = self.twist[points.body], self.twist_rate[points.body]
+        velocity = twist[:, :3] + np.cross(twist[:, 3:], position)
+        acceleration = (
+            rate[:, :3] + np.cross(rate[:, 3:], position) + np.cross(twist[:, 3:], velocity)
+        )
+        return PointMotion(position, displacement, velocity, axis, acceleration)
 
     def points_at(self, height: Array) -> PointMotion:
         """Motion of the points of the axis at undeformed heights in m."""
         return self.points(AxisPoints.on(self.chain, height))
 
-    def point_acceleration(self, points: AxisPoints, motion: PointMotion, rate: Array) -> Array:
-        """(n, 3) acceleration of points in m/s2; rate (N + 1, 6) from :meth:`twist_rate`."""
-        body_rate = rate[points.body]
-        spin = self.twist[points.body, 3:]
-        return (
-            body_rate[:, :3]
-            + cross(body_rate[:, 3:], motion.position)
-            + cross(spin, motion.velocity)
-        )
+    def derivatives(self, points: AxisPoints, motion: PointMotion) -> PointDerivatives:
+        """How the motion of points depends on q, v and a.
 
-    def twist_rate(self, jacobian_rate: Array, v: Array, a: Array) -> Array:
-        """(N + 1, 6) time derivative of the bodies' twists."""
-        return self.body_sums(self.jacobian * a + jacobian_rate * v)
+        A joint turns or shifts everything above it as one rigid body. With S the joint's column, V
+        and V_S the twists of the point's body and of the body above the joint, and x the product of
+        spatial velocities, dV/dq = S x (V - V_S); those of the rate follow by the product rule.
+        """
+        columns = self.jacobian.T[None]
+        lower = self.dof_body[None, :] <= points.body[:, None]
+        twist = self.twist[points.body][:, None]
+        rate = self.twist_rate[points.body][:, None]
+        through, rate_through = self._through.T[None], self._rate_through.T[None]
+        beyond = spatial_cross(columns, twist - through)
+        turning = spatial_cross(through, columns)
+        rate_by_q = spatial_cross(columns, rate - rate_through)
+        rate_by_q = rate_by_q + spatial_cross(turning, twist - through)
+        rate_by_v = beyond + turning
+        place, spin = motion.position[:, None], twist[..., 3:]
+        moved = columns[..., :3] + np.cross(columns[..., 3:], place)
+        speed = beyond[..., :3] + np.cross(beyond[..., 3:], place) + np.cross(spin, moved)
+        pushed = rate_by_q[..., :3] + np.cross(rate_by_q[..., 3:], place)
+        pushed = pushed + np.cross(rate[..., 3:], moved)
+        pushed = pushed + np.cross(beyond[..., 3:], motion.velocity[:, None])
+        pushed = pushed + np.cross(spin, speed)
+        by_v = rate_by_v[..., :3] + np.cross(rate_by_v[..., 3:], place)
+        by_v = by_v + np.cross(columns[..., 3:], motion.velocity[:, None]) + np.cross(spin, moved)
+        axis = np.cross(columns[..., 3:], motion.axis[:, None])
+        parts = (moved, axis, speed, pushed, by_v)
+        return PointDerivatives(*(self._kept(part, lower) for part in parts))
 
     def generalised_force(
         self, points: AxisPoints, position: Array, force: Array, moment: Array
@@ -105,10 +144,6 @@ class ChainMotion:
         """(nv,) generalised force of point forces (n, 3) and moments (n, 3) fixed in the world."""
         above = self._wrench_above(points, position, force, moment)
         return np.einsum("ij,ji->i", above[self.dof_body], self.jacobian)
-
-    def congruence(self, points: AxisPoints, position: Array, blocks: Array) -> Array:
-        """(nv, nv) matrix sum of J_P' B J_P over points with blocks B (n, 3, 3)."""
-        return self._assemble(self._sums_above(points, _at_origin(position, blocks)))
 
     def geometric_stiffness(
         self, points: AxisPoints, position: Array, force: Array, moment: Array
@@ -128,18 +163,28 @@ class ChainMotion:
         linear, angular = self.jacobian[:3].T, self.jacobian[3:].T
         turned = np.concatenate(
             [
-                cross(angular, above[:, :3]),
-                cross(linear, above[:, :3]) + cross(angular, above[:, 3:]),
+                np.cross(angular, above[:, :3]),
+                np.cross(linear, above[:, :3]) + np.cross(angular, above[:, 3:]),
             ],
             axis=1,
         )
         return moved + np.tril(turned @ self.jacobian, -1)
 
+    def _bodies(self, through: Array) -> Array:
+        """(N + 1, 6) values of bodies out of cumulative sums (6, nv) over the joints."""
+        padded = np.concatenate([np.zeros((6, 1)), through], axis=1)
+        return padded[:, self._last_dof + 1].T
+
+    @staticmethod
+    def _kept(values: Array, lower: NDArray[np.bool_]) -> Array:
+        """(n, 3, nv) with zeros for joints above the points, out of (n, nv, 3)."""
+        return np.where(lower[..., None], values, 0.0).transpose(0, 2, 1)
+
     def _wrench_above(
         self, points: AxisPoints, position: Array, force: Array, moment: Array
     ) -> Array:
         """(N + 1, 6) sum of wrenches about the world's origin on each body and all above it."""
-        wrench = np.concatenate([force, cross(position, force) + moment], axis=1)
+        wrench = np.concatenate([force, np.cross(position, force) + moment], axis=1)
         return self._sums_above(points, wrench)
 
     def _sums_above(self, points: AxisPoints, values: Array) -> Array:
@@ -158,18 +203,14 @@ class ChainMotion:
 
 def dof_body(chain: Chain) -> NDArrayInt:
     """(nv,) index of the lowest body that each joint moves."""
-    return np.concatenate(
-        [np.zeros(chain.roots, dtype=np.intp), np.repeat(np.arange(1, chain.elements + 1), 3)]
-    )
+    nodes = np.repeat(np.arange(1, chain.elements + 1), len(chain.node_joints))
+    return np.concatenate([np.zeros(chain.roots, dtype=np.intp), nodes])
 
 
-def cross(a: Array, b: Array) -> Array:
-    """Row-wise cross product of (n, 3) arrays, several times faster than numpy.cross."""
-    result = np.empty(np.broadcast_shapes(a.shape, b.shape))
-    result[:, 0] = a[:, 1] * b[:, 2] - a[:, 2] * b[:, 1]
-    result[:, 1] = a[:, 2] * b[:, 0] - a[:, 0] * b[:, 2]
-    result[:, 2] = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
-    return result
+def spatial_cross(a: Array, b: Array) -> Array:
+    """(..., 6) product of spatial velocities, linear part first."""
+    linear = np.cross(a[..., 3:], b[..., :3]) + np.cross(a[..., :3], b[..., 3:])
+    return np.concatenate([linear, np.cross(a[..., 3:], b[..., 3:])], axis=-1)
 
 
 def skew(vector: Array) -> Array:
@@ -179,11 +220,3 @@ def skew(vector: Array) -> Array:
     result[:, 1, 0], result[:, 1, 2] = vector[:, 2], -vector[:, 0]
     result[:, 2, 0], result[:, 2, 1] = -vector[:, 1], vector[:, 0]
     return result
-
-
-def _at_origin(position: Array, blocks: Array) -> Array:
-    """(n, 6, 6) blocks X' B X, with X = [I, -[p]] from a twist at the origin to the point."""
-    reach = np.zeros((len(position), 3, 6))
-    reach[:, :, :3] = np.eye(3)
-    reach[:, :, 3:] = -skew(position)
-    return reach.transpose(0, 2, 1) @ blocks @ reach

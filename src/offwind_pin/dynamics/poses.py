@@ -26,7 +26,7 @@ def body_poses(system: System, q: Array) -> Array:
     """
     chain, data = system.chain, system.scratch.data
     pin.forwardKinematics(system.pin_model, data, q)
-    joints = chain.roots + 3 * np.arange(chain.elements + 1)
+    joints = chain.roots + len(chain.node_joints) * np.arange(chain.elements + 1)
     poses = np.array([data.oMi[int(joint)].homogeneous for joint in joints])
     if not chain.free_root:
         poses[0, 2, 3] = chain.base

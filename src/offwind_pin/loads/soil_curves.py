@@ -5,10 +5,10 @@ from __future__ import annotations
 import csv
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Protocol
 
 import numpy as np
 
+from offwind_pin.compiled import kernel
 from offwind_pin.errors import InputError
 from offwind_pin.turbines.definition import Array, CurveTable, LinearModulus, TanhCurve
 
@@ -16,17 +16,141 @@ _LARGEST_DISPLACEMENT = 10.0
 _COLUMNS = ("depth_m", "y_m", "p_n_per_m")
 
 
-class SoilCurves(Protocol):
-    """One curve for each of n nodes; y >= 0 is the size of the lateral displacement in m."""
+LINEAR, TANH, TABLE = 0.0, 1.0, 2.0
+"""First number of a curve: which law the others belong to."""
+
+
+@kernel
+def _tanh_curve(numbers: Array, y: float) -> tuple[float, float]:
+    modulus, ultimate = numbers[1], numbers[2]
+    if ultimate <= 0:
+        return 0.0, 0.0
+    x = modulus * y / ultimate
+    t = np.tanh(x)
+    ratio = t / x if x > 1e-6 else 1 - x**2 / 3
+    return modulus * ratio, modulus * (1 - t**2)
+
+
+@kernel
+def _tabulated_curve(numbers: Array, y: float) -> tuple[float, float]:
+    count = (len(numbers) - 1) // 2
+    grid, load = numbers[1 : 1 + count], numbers[1 + count :]
+    upper = np.searchsorted(grid, y, side="right")
+    if upper == count:
+        return load[-1] / y, 0.0
+    slope = (load[upper] - load[upper - 1]) / (grid[upper] - grid[upper - 1])
+    p = load[upper - 1] + slope * (y - grid[upper - 1])
+    return (p / y if y > 0 else slope), slope
+
+
+@kernel
+def curve_at(numbers: Array, y: float) -> tuple[float, float]:
+    """Secant stiffness p / y and tangent dp/dy in N/m2 at a displacement y >= 0 in m.
+
+    numbers : one row of :attr:`SoilCurves.numbers`
+    """
+    if numbers[0] == LINEAR:
+        return numbers[1], numbers[1]
+    if numbers[0] == TANH:
+        return _tanh_curve(numbers, y)
+    return _tabulated_curve(numbers, y)
+
+
+@kernel
+def _tanh_energy(numbers: Array, y: float) -> float:
+    modulus, ultimate = numbers[1], numbers[2]
+    if ultimate <= 0 or modulus <= 0:
+        return 0.0
+    x = modulus * y / ultimate
+    # ln cosh x, without overflow and without loss of digits where x is small
+    log_cosh = x + np.log1p(np.expm1(-2 * x) / 2) if x > 1e-3 else x**2 / 2 - x**4 / 12
+    return ultimate**2 / modulus * log_cosh
+
+
+@kernel
+def _tabulated_energy(numbers: Array, y: float) -> float:
+    count = (len(numbers) - 1) // 2
+    grid, load = numbers[1 : 1 + count], numbers[1 + count :]
+    energy = 0.0
+    for i in range(1, count):
+        top = min(y, grid[i])
+        if top <= grid[i - 1]:
+            break
+        share = (top - grid[i - 1]) / (grid[i] - grid[i - 1])
+        end = load[i - 1] + share * (load[i] - load[i - 1])
+        energy += (load[i - 1] + end) / 2 * (top - grid[i - 1])
+    return energy + load[-1] * max(y - grid[-1], 0.0)
+
+
+@kernel
+def curve_energy(numbers: Array, y: float) -> float:
+    """Integral of p from 0 to y in J per m of pile."""
+    if numbers[0] == LINEAR:
+        return numbers[1] * y**2 / 2
+    if numbers[0] == TANH:
+        return _tanh_energy(numbers, y)
+    return _tabulated_energy(numbers, y)
+
+
+@kernel
+def _curves_at(numbers: Array, y: Array) -> Array:
+    result = np.empty((2, len(y)))
+    for i in range(len(y)):
+        result[0, i], result[1, i] = curve_at(numbers[i], y[i])
+    return result
+
+
+@dataclass(frozen=True, eq=False)
+class SoilCurves:
+    """One curve for each of n nodes; y >= 0 is the size of the lateral displacement in m.
+
+    numbers : (n, c) law of each node's curve and its parameters
+    """
+
+    numbers: Array
 
     def resistance(self, y: Array) -> Array:
         """p(y) in N/m, (n,)."""
-
-    def tangent(self, y: Array) -> Array:
-        """dp/dy in N/m2, (n,)."""
+        return self.secant(y) * y
 
     def secant(self, y: Array) -> Array:
         """p(y) / y in N/m2, (n,), with its limit at y = 0."""
+        return _curves_at(self.numbers, y)[0]
+
+    def tangent(self, y: Array) -> Array:
+        """dp/dy in N/m2, (n,)."""
+        return _curves_at(self.numbers, y)[1]
+
+
+def linear_curves(modulus: Array) -> SoilCurves:
+    """p = k y; modulus (n,) in N/m2."""
+    return SoilCurves(np.column_stack([np.full_like(modulus, LINEAR), modulus]))
+
+
+def tanh_curves(initial_modulus: Array, ultimate_resistance: Array) -> SoilCurves:
+    """p = p_u tanh(k y / p_u), and nothing where p_u is zero; k (n,) in N/m2, p_u (n,) in N/m."""
+    law = np.full_like(initial_modulus, TANH)
+    return SoilCurves(np.column_stack([law, initial_modulus, ultimate_resistance]))
+
+
+def tabulated_curves(path: Path, depth: Array) -> SoilCurves:
+    """Curves from a table with columns depth_m, y_m, p_n_per_m, interpolated to the depths.
+
+    Between two tabulated depths p is interpolated linearly at equal y; above the first and below
+    the last depth the nearest curve holds. A curve that does not start at y = 0 is led to the
+    origin by a straight line; past its last point p stays constant.
+
+    Raises
+    ------
+    InputError : a table that cannot be read
+    """
+    curves = _read_table(path)
+    grid = np.unique(np.concatenate([[0.0], *(y for y, _ in curves.values())]))
+    depths = np.array(sorted(curves))
+    loads = np.array([np.interp(grid, *curves[d]) for d in depths])
+    at_nodes = np.array([np.interp(depth, depths, column) for column in loads.T]).T
+    law = np.full((len(depth), 1), TABLE)
+    return SoilCurves(np.hstack([law, np.tile(grid, (len(depth), 1)), at_nodes]))
 
 
 def soil_curves(curve: LinearModulus | TanhCurve | CurveTable, depth: Array) -> SoilCurves:
@@ -37,105 +161,10 @@ def soil_curves(curve: LinearModulus | TanhCurve | CurveTable, depth: Array) -> 
     InputError : a table that cannot be read
     """
     if isinstance(curve, LinearModulus):
-        return LinearCurves(curve.modulus.at(depth))
+        return linear_curves(curve.modulus.at(depth))
     if isinstance(curve, TanhCurve):
-        return TanhCurves(curve.initial_modulus.at(depth), curve.ultimate_resistance.at(depth))
-    return TabulatedCurves.from_csv(curve.file, depth)
-
-
-@dataclass(frozen=True, eq=False)
-class LinearCurves:
-    """p = k y; modulus (n,) in N/m2."""
-
-    modulus: Array
-
-    def resistance(self, y: Array) -> Array:
-        return self.modulus * y
-
-    def tangent(self, y: Array) -> Array:
-        return self.modulus
-
-    def secant(self, y: Array) -> Array:
-        return self.modulus
-
-
-@dataclass(frozen=True, eq=False)
-class TanhCurves:
-    """p = p_u tanh(k y / p_u), and nothing where p_u is zero.
-
-    initial_modulus (n,) in N/m2; ultimate_resistance (n,) in N/m.
-    """
-
-    initial_modulus: Array
-    ultimate_resistance: Array
-
-    def resistance(self, y: Array) -> Array:
-        return self.ultimate_resistance * np.tanh(self._argument(y))
-
-    def tangent(self, y: Array) -> Array:
-        return self._stiffness / np.cosh(np.minimum(self._argument(y), 300.0)) ** 2
-
-    def secant(self, y: Array) -> Array:
-        x = self._argument(y)
-        ratio = np.divide(np.tanh(x), x, out=1 - x**2 / 3, where=x > 1e-6)
-        return self._stiffness * ratio
-
-    @property
-    def _stiffness(self) -> Array:
-        return np.where(self.ultimate_resistance > 0, self.initial_modulus, 0.0)
-
-    def _argument(self, y: Array) -> Array:
-        strong = self.ultimate_resistance > 0
-        return np.divide(
-            self.initial_modulus * y, self.ultimate_resistance, out=np.zeros_like(y), where=strong
-        )
-
-
-@dataclass(frozen=True, eq=False)
-class TabulatedCurves:
-    """Piecewise linear curves on one grid of displacements; past its end p stays constant.
-
-    displacement (m,) in m, from 0; load (n, m) in N/m, with p = 0 at y = 0.
-    """
-
-    displacement: Array
-    load: Array
-
-    @staticmethod
-    def from_csv(path: Path, depth: Array) -> TabulatedCurves:
-        """Curves from a table with columns depth_m, y_m, p_n_per_m, interpolated to the depths.
-
-        Between two tabulated depths p is interpolated linearly at equal y; above the first and
-        below the last depth the nearest curve holds. A curve that does not start at y = 0 is led
-        to the origin by a straight line.
-        """
-        curves = _read_table(path)
-        grid = np.unique(np.concatenate([[0.0], *(y for y, _ in curves.values())]))
-        depths = np.array(sorted(curves))
-        loads = np.array([np.interp(grid, *curves[d]) for d in depths])
-        at_nodes = np.array([np.interp(depth, depths, column) for column in loads.T]).T
-        return TabulatedCurves(grid, at_nodes)
-
-    def resistance(self, y: Array) -> Array:
-        segment, slope = self._segment(y)
-        rows = np.arange(len(y))
-        return self.load[rows, segment] + slope * np.maximum(y - self.displacement[segment], 0.0)
-
-    def tangent(self, y: Array) -> Array:
-        return self._segment(y)[1]
-
-    def secant(self, y: Array) -> Array:
-        return np.divide(self.resistance(y), y, out=self.tangent(np.zeros_like(y)), where=y > 0)
-
-    def _segment(self, y: Array) -> tuple[np.ndarray[tuple[int], np.dtype[np.intp]], Array]:
-        """Index of the segment's lower end and its slope; the slope past the end is zero."""
-        segment = np.searchsorted(self.displacement, y, side="right") - 1
-        rows = np.arange(len(y))
-        last = len(self.displacement) - 1
-        upper = np.minimum(segment + 1, last)
-        rise = self.load[rows, upper] - self.load[rows, segment]
-        run = np.where(upper > segment, self.displacement[upper] - self.displacement[segment], 1.0)
-        return segment, rise / run
+        return tanh_curves(curve.initial_modulus.at(depth), curve.ultimate_resistance.at(depth))
+    return tabulated_curves(curve.file, depth)
 
 
 def _read_table(path: Path) -> dict[float, tuple[Array, Array]]:

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from offwind_pin.errors import InputError
-from offwind_pin.loads.points import PointForces, PointMotion, PointTangents, zeros_like_points
+from offwind_pin.loads.points import KernelLoad, force_kernel, no_tangents, nothing_stored
 from offwind_pin.loads.soil_curves import to_numbers
 from offwind_pin.turbines.definition import Array
 
@@ -59,8 +59,14 @@ class LoadHistory:
         return (1 - share) * self.load[upper - 1] + share * self.load[upper]
 
 
+@force_kernel
+def _forces(motion: Array, constants: Array, row: Array, force: Array) -> float:
+    force[0, :] = row
+    return 0.0
+
+
 @dataclass(frozen=True, eq=False)
-class TowerTopLoad:
+class TowerTopLoad(KernelLoad):
     """A load history applied at the yaw bearing; its departure from the mean rises at the start.
 
     yaw_bearing : height in m
@@ -72,20 +78,21 @@ class TowerTopLoad:
     mean: Array
     name: str = "tower_top"
 
+    force_kernel = _forces
+    tangent_kernel = no_tangents
+    energy_kernel = nothing_stored
+
     @property
     def height(self) -> Array:
         return np.array([self.yaw_bearing])
 
-    def load(self, time: float, rise: float = 1.0) -> Array:
-        """(6,) applied load at one time."""
-        return self.mean + rise * (self.history.at(time) - self.mean)
+    @property
+    def constants(self) -> Array:
+        return np.zeros((1, 0))
 
-    def forces(self, time: float, motion: PointMotion, rise: float) -> PointForces:
-        load = self.load(time, rise)
-        return PointForces(load[None, :3], load[None, 3:])
-
-    def tangents(self, time: float, motion: PointMotion, rise: float) -> PointTangents:
-        return PointTangents(*zeros_like_points(1))
+    def rows(self, time: Array, rise: Array) -> Array:
+        """(t, 6) applied load."""
+        return self.mean + rise[:, None] * (self.history.at(time) - self.mean)
 
 
 def constant_load(yaw_bearing: float, load: Array) -> TowerTopLoad:

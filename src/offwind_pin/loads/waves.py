@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
 from offwind_pin.turbines.definition import Array
 
 _LARGEST_EXPONENT = 700.0
-_BLOCK = 1000
+_BLOCK = 128
 """Times for which all components are held in memory at once."""
+_SAME = 1e-11
+"""Seconds by which times may differ and still share cosines: a ten-billionth of a wave's phase."""
+_ROUNDING = 1e-14
+"""Singular values below this part of the largest are rounding."""
 _STREAM = 1
 """Keeps the random numbers of waves and wind apart when a case gives both one seed."""
 
@@ -128,15 +133,82 @@ class WaveKinematics:
     phase: Array
     horizontal: Array
     vertical: Array
+    _kept: tuple[Array, Array, Array] | None = field(default=None, init=False, repr=False)
 
     def at(self, time: float) -> tuple[Array, Array]:
         """Velocity (n, 3) in m/s and acceleration (n, 3) in m/s2."""
-        angle = self.omega * time - self.phase
-        cos, sin = np.cos(angle), np.sin(angle)
-        n = len(self.horizontal)
-        velocity, acceleration = np.zeros((n, 3)), np.zeros((n, 3))
-        velocity[:, 0] = self.horizontal @ cos
-        velocity[:, 2] = self.vertical @ -sin
-        acceleration[:, 0] = self.horizontal @ (-self.omega * sin)
-        acceleration[:, 2] = self.vertical @ (-self.omega * cos)
+        velocity, acceleration = self.at_times(np.array([time]))[0]
         return velocity, acceleration
+
+    def at_times(self, time: Array) -> Array:
+        """(t, 2, n, 3) velocity in m/s and acceleration in m/s2 at times in s.
+
+        Times that lie apart like those of the call before are cheap: only the phases at the first
+        of them are new.
+        """
+        result = np.zeros((len(time), 2, len(self.horizontal), 3))
+        if len(self.omega) == 0:
+            return result
+        for first in range(0, len(time), _BLOCK):
+            part = slice(first, min(first + _BLOCK, len(time)))
+            cos, sin = self._turned(time[part] - time[first])
+            angle = self.omega * time[first] - self.phase
+            c, s = np.cos(angle)[:, None], np.sin(angle)[:, None]
+            # cos(a + b) and sin(a + b) of the start's phase a and the time's own b
+            by_cos = c * self._basis.by_cos + s * self._basis.by_sin
+            by_sin = c * self._basis.by_sin - s * self._basis.by_cos
+            blends = cos @ by_cos + sin @ by_sin
+            for profile in self._basis.profiles:
+                blend = blends[:, profile.columns]
+                result[part, profile.order, :, profile.axis] = blend @ profile.over_height
+        return result
+
+    def _turned(self, offset: Array) -> tuple[Array, Array]:
+        """(t, m) cosines and sines of the components at times from a start."""
+        kept = self._kept
+        if kept is None or len(kept[0]) != len(offset) or np.any(abs(kept[0] - offset) > _SAME):
+            angle = np.outer(offset, self.omega)
+            kept = (offset, np.cos(angle), np.sin(angle))
+            object.__setattr__(self, "_kept", kept)
+        return kept[1], kept[2]
+
+    @cached_property
+    def _basis(self) -> _Basis:
+        """The amplitudes of all components as blends of a few profiles over height."""
+        by_cos, by_sin, profiles = [], [], []
+        column = 0
+        for axis, amplitude in ((0, self.horizontal), (2, self.vertical)):
+            left, size, right = np.linalg.svd(amplitude, full_matrices=False)
+            rank = int(np.sum(size > _ROUNDING * size[0]))
+            over_height, weight = (left[:, :rank] * size[:rank]).T.copy(), right[:rank].T
+            nothing, rate = np.zeros_like(weight), weight * self.omega[:, None]
+            # horizontal: cos, rate -omega sin; vertical: -sin, rate -omega cos
+            by_cos += [weight, nothing] if axis == 0 else [nothing, -rate]
+            by_sin += [nothing, -rate] if axis == 0 else [-weight, nothing]
+            for order in range(2):
+                columns = slice(column, column + rank)
+                profiles.append(_Profile(axis, order, columns, over_height))
+                column += rank
+        return _Basis(np.hstack(by_cos), np.hstack(by_sin), profiles)
+
+
+@dataclass(frozen=True, eq=False)
+class _Profile:
+    """Profiles over height (r, n) of one direction, and the columns of a basis they go with.
+
+    order : 0 velocity, 1 acceleration
+    """
+
+    axis: int
+    order: int
+    columns: slice
+    over_height: Array
+
+
+@dataclass(frozen=True, eq=False)
+class _Basis:
+    """Weights (m, c) of the components' cosines and sines in each blend of profiles."""
+
+    by_cos: Array
+    by_sin: Array
+    profiles: list[_Profile]

@@ -2,54 +2,84 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass
 from importlib import metadata
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from offwind_pin.results.blocks import Block, BlockStore
+from offwind_pin.results.files import append_netcdf
+
 Array = NDArray[np.float64]
 
 FRAME = "inertial: x downwind, y left looking downwind, z up from still water level"
 SECTION = "what the part above the section exerts on the part below"
 
+HOLDERS = ("kinetic", "gravitational", "elastic", "foundation")
+SINKS = ("joint_dampers", "foundation_dashpots")
+"""What holds and what takes up energy besides the loads."""
 
-def make_dataset(
-    time: Array,
-    height: Array,
-    *,
-    displacement: Array,
-    acceleration: Array,
-    section_load: Array,
-    tower_top_load: Array,
-    wave_elevation: Array,
-    iterations: NDArray[np.int32],
-    residual: Array,
-    mudline: float,
-    attributes: dict[str, Any],
-) -> xr.Dataset:
-    """Channels over time (t,) in s and height (m,) in m.
 
-    displacement, acceleration (t, m, 3) in m and m/s2; section_load (t, m, 6) in N and N m;
-    tower_top_load (t, 6); wave_elevation (t,) in m; iterations, residual (t,) of the solver.
+@dataclass(frozen=True, eq=False)
+class HistoryWriter:
+    """Makes datasets, in memory or in a file, out of the blocks of a time history.
+
+    Attributes
+    ----------
+    mudline : height in m
+    height : (m,) heights of the records in m
+    segments : pairs of heights in m between which equilibrium is checked
+    loads : names of the loads
+    stores : (L,) whether each stores energy rather than works
+    attributes : of the dataset
     """
-    directions = ["x", "y", "z"]
-    at_mudline = int(np.argmin(np.abs(height - mudline)))
-    along = ("time", "height", "direction")
-    top = ("time", "direction")
-    data = xr.Dataset(
-        {
+
+    mudline: float
+    height: Array
+    segments: Sequence[tuple[float, float]]
+    loads: Sequence[str]
+    stores: NDArray[np.bool_]
+    attributes: dict[str, Any]
+
+    def write(self, store: BlockStore, status: str, directory: Path | str | None) -> xr.Dataset:
+        """Dataset of all blocks; with a directory it stands in ``results.nc`` there.
+
+        No more than one block is in memory at a time if the dataset goes to a file.
+        """
+        start = np.sum(next(iter(store))["stored"][0]) if len(store) else 0.0
+        if directory is None:
+            whole = [self._dataset(block, status, start) for block in store]
+            return xr.concat(
+                whole, "time", data_vars="minimal", combine_attrs="override", join="override"
+            )
+        path = Path(directory) / "results.nc"
+        append_netcdf(path, (self._dataset(block, status, start) for block in store))
+        return xr.open_dataset(path, engine="netcdf4")
+
+    def _dataset(self, block: Block, status: str, start: float) -> xr.Dataset:
+        """Channels of one block; start is the energy stored at the beginning in J."""
+        at_mudline = int(np.argmin(np.abs(self.height - self.mudline)))
+        load, displacement = block["section_load"], block["displacement"]
+        along, top = ("time", "height", "direction"), ("time", "direction")
+        stored, dissipated, worked = (block[name] for name in ("stored", "dissipated", "worked"))
+        balance = stored.sum(axis=1) - start + dissipated.sum(axis=1) - worked.sum(axis=1)
+        holders = [True] * len(HOLDERS) + list(self.stores)
+        channels = {
             "displacement": (along, displacement, _about("displacement of the axis", "m")),
-            "acceleration": (along, acceleration, _about("acceleration of the axis", "m/s2")),
-            "section_force": (
+            "acceleration": (
                 along,
-                section_load[..., :3],
-                _about(f"section force: {SECTION}", "N"),
+                block["acceleration"],
+                _about("acceleration of the axis", "m/s2"),
             ),
+            "section_force": (along, load[..., :3], _about(f"section force: {SECTION}", "N")),
             "section_moment": (
                 along,
-                section_load[..., 3:],
+                load[..., 3:],
                 _about(f"section moment: {SECTION}; y is fore-aft", "N m"),
             ),
             "tower_top_displacement": (
@@ -59,48 +89,94 @@ def make_dataset(
             ),
             "mudline_moment": (
                 top,
-                section_load[:, at_mudline, 3:],
+                load[:, at_mudline, 3:],
                 _about(
                     f"moment at the mudline: {SECTION}", "N m", "-ReactMXss -ReactMYss -ReactMZss"
                 ),
             ),
             "mudline_force": (
                 top,
-                section_load[:, at_mudline, :3],
+                load[:, at_mudline, :3],
                 _about(f"force at the mudline: {SECTION}", "N", "-ReactFXss -ReactFYss -ReactFZss"),
+            ),
+            "segment_imbalance": (
+                ("time", "segment", "component"),
+                block["imbalance"],
+                _about(
+                    "what section loads, applied loads and inertia of a segment leave over; "
+                    "moments about its lower end",
+                    "N for F, N m for M",
+                ),
             ),
             "tower_top_load": (
                 ("time", "component"),
-                tower_top_load,
+                block["tower_top_load"],
                 _about("load applied at the yaw bearing", "N for F, N m for M"),
             ),
             "wave_elevation": (
                 ("time",),
-                wave_elevation,
+                block["wave_elevation"],
                 _about("surface elevation of the undisturbed wave at x = 0", "m", "Wave1Elev"),
             ),
-            "solver_iterations": (("time",), iterations, {"long_name": "Newton iterations"}),
+            "energy_stored": (
+                ("time", "holder"),
+                stored[:, holders],
+                {"long_name": "energy that the state holds", "units": "J"},
+            ),
+            "energy_dissipated": (
+                ("time", "sink"),
+                dissipated,
+                {"long_name": "energy turned into heat since the start", "units": "J"},
+            ),
+            "energy_worked": (
+                ("time", "source"),
+                worked[:, 2:][:, ~self.stores],
+                {"long_name": "work done by loads since the start", "units": "J"},
+            ),
+            "energy_balance": (
+                ("time",),
+                balance,
+                {
+                    "long_name": "energy gained since the start, and dissipated, less work done",
+                    "units": "J",
+                },
+            ),
+            "solver_step": (
+                ("time",),
+                block["step"],
+                {"long_name": "time step; not a number where the solver chooses", "units": "s"},
+            ),
+            "solver_iterations": (
+                ("time",),
+                block["iterations"],
+                {"long_name": "corrections of Newton's method in the step"},
+            ),
             "solver_residual": (
                 ("time",),
-                residual,
+                block["residual"],
                 {"long_name": "largest residual over the load scale", "units": "1"},
             ),
-        },
-        coords={
-            "time": ("time", time, {"long_name": "simulated time", "units": "s"}),
-            "height": ("height", height, {"long_name": "undeformed height", "units": "m"}),
-            "direction": directions,
+        }
+        names = np.array([*HOLDERS, *self.loads])
+        coordinates = {
+            "time": ("time", block["time"], {"long_name": "simulated time", "units": "s"}),
+            "height": ("height", self.height, {"long_name": "undeformed height", "units": "m"}),
+            "direction": ["x", "y", "z"],
             "component": ["Fx", "Fy", "Fz", "Mx", "My", "Mz"],
-        },
-    )
-    data.attrs = {
-        "title": "offwind-pin time histories",
-        **versions(),
-        "frame": FRAME,
-        "mudline_m": mudline,
-        **attributes,
-    }
-    return data
+            "segment": [f"{low:g} to {high:g} m" for low, high in self.segments],
+            "holder": names[holders].tolist(),
+            "sink": [*SINKS, *self.loads],
+            "source": np.array(self.loads)[~self.stores].tolist(),
+        }
+        attributes = {
+            "title": "offwind-pin time histories",
+            **versions(),
+            "frame": FRAME,
+            "mudline_m": self.mudline,
+            **self.attributes,
+            "status": status,
+        }
+        return xr.Dataset(channels, coordinates, attributes)
 
 
 def versions() -> dict[str, str]:

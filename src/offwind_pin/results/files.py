@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+import netCDF4
 import xarray as xr
 
 _FULL_PRECISION = {"time", "height", "mudline_moment", "mudline_force", "tower_top_displacement"}
@@ -40,10 +41,27 @@ def write_json(path: Path, data: dict[str, Any]) -> None:
 
 def write_netcdf(path: Path, data: xr.Dataset) -> None:
     """Compressed NetCDF; channels over the whole height in single precision, the rest in double."""
-    encoding = {
+    append_netcdf(path, iter([data]))
+
+
+def append_netcdf(path: Path, parts: Iterator[xr.Dataset]) -> None:
+    """The same out of datasets that follow one another along ``time``, one at a time in memory."""
+    with whole_file(path) as temporary:
+        first = next(parts)
+        unlimited = ["time"] if "time" in first.sizes else []
+        encoding = _encoding(first)
+        first.to_netcdf(temporary, engine="netcdf4", encoding=encoding, unlimited_dims=unlimited)
+        with netCDF4.Dataset(temporary, "a") as file:
+            for part in parts:
+                begin = len(file.dimensions["time"])
+                for name, variable in part.variables.items():
+                    if "time" in variable.dims:
+                        file[str(name)][begin : begin + part.sizes["time"]] = variable.values
+
+
+def _encoding(data: xr.Dataset) -> dict[Any, dict[str, Any]]:
+    return {
         name: {"zlib": True, "complevel": 1}
         | ({} if name in _FULL_PRECISION or variable.ndim < 3 else {"dtype": "float32"})
         for name, variable in data.data_vars.items()
     }
-    with whole_file(path) as temporary:
-        data.to_netcdf(temporary, engine="netcdf4", encoding=encoding)

@@ -3,138 +3,180 @@
 The second-order method of Chung and Hulbert (1993), in the form of Arnold and Bruels (2007) that
 satisfies the equations of motion exactly at the end of each step and blends an auxiliary
 acceleration instead.
+
+:func:`advance` is plain Python on a :class:`SecondOrderSystem`, and the same text compiled on a
+system of arrays: what it asks of a system goes through the four functions at the end of this page,
+and a compiled system gives its own of them to Numba (``numba.extending.overload``).
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import lu_factor, lu_solve
+
+from offwind_pin.compiled import kernel
 
 Array = NDArray[np.float64]
 
 
-class SecondOrderSystem(Protocol):
-    """Equations of motion in a vector space of configurations."""
+class Equilibrium(Protocol):
+    """Equations of motion in a vector space of configurations, and a matrix to solve them with.
 
-    def residual(self, time: float, q: Array, v: Array, a: Array) -> Array:
-        """(n,) residual."""
-
-    def mass(self, q: Array) -> Array:
-        """(n, n) dr/da."""
-
-    def tangents(self, time: float, q: Array, v: Array) -> tuple[Array, Array]:
-        """dr/dq and dr/dv, (n, n); they may be approximate."""
-
-
-@dataclass(frozen=True, eq=False)
-class Step:
-    """One converged step.
-
-    number : counted from 0, the start; time in s; q, v, a : (n,) state, with the true acceleration;
-    iterations : Newton iterations used; residual : largest entry over the load scale
+    row : numbers that depend on time alone, such as the time itself; its first is the time
     """
 
-    number: int
-    time: float
-    q: Array
-    v: Array
-    a: Array
-    iterations: int
-    residual: float
+    def residual(self, row: Array, q: Array, v: Array, a: Array) -> Array:
+        """(n,) residual."""
+
+    def factorise(self, row: Array, q: Array, v: Array, a: Array, by_v: float, by_a: float) -> None:
+        """Make the iteration matrix by_a dr/da + by_v dr/dv + dr/dq anew; it may be approximate."""
+
+    def correction(self, residual: Array) -> Array:
+        """(n,) solution of the iteration matrix for a right side."""
 
 
-class StepFailed(Exception):
-    """A step that did not converge: its number, its time and its last finite residual (n,)."""
+class SecondOrderSystem(Equilibrium, Protocol):
+    """Equations of motion with a place for the results."""
 
-    def __init__(self, number: int, time: float, residual: Array) -> None:
-        self.number = number
-        self.time = time
-        self.residual = residual
-        super().__init__(f"step {number} at {time} did not converge")
+    def observe(self, row: Array, state: Array, iterations: int, size: float) -> None:
+        """Take note of a converged step: state (6, n) holds q, v, a first."""
 
 
-@dataclass(frozen=True)
-class GeneralizedAlpha:
-    """Method and its settings.
+class Method(NamedTuple):
+    """Step and settings of generalised-alpha, as numbers.
 
     Attributes
     ----------
-    dt : step in s
+    step : in s
     spectral_radius : at infinite frequency, 1 keeps every frequency and 0 damps the highest at once
-    relative_tolerance : a step has converged when no entry of the residual exceeds this times the
-        load scale and no increment of q exceeds ``increment_tolerance``
+    scale : size of the loads that the residual is a balance of
+    relative_tolerance, increment_tolerance : a step has converged when no entry of the residual
+        exceeds the first times the scale, and the correction that it still asks for nowhere the
+        second; the predictor is corrected once at least
     max_iterations : a step that needs more has failed
-    slow : ratio of successive residuals above which the iteration matrix is made anew
+    slow : ratio of successive corrections above which the iteration matrix is made anew
     """
 
-    dt: float
-    spectral_radius: float = 0.9
-    relative_tolerance: float = 1e-8
+    step: float
+    spectral_radius: float
+    scale: float
+    relative_tolerance: float = 1e-6
     increment_tolerance: float = 1e-8
     max_iterations: int = 25
-    slow: float = 0.2
-
-    def steps(
-        self, system: SecondOrderSystem, q: Array, v: Array, *, count: int, scale: float
-    ) -> Iterator[Step]:
-        """The start, then ``count`` steps.
-
-        scale : size of the loads that the residual is a balance of
-
-        Raises
-        ------
-        StepFailed : the Newton iteration of a step did not converge
-        """
-        rho, h = self.spectral_radius, self.dt
-        alpha_m, alpha_f = (2 * rho - 1) / (rho + 1), rho / (rho + 1)
-        gamma = 0.5 + alpha_f - alpha_m
-        beta = 0.25 * (gamma + 0.5) ** 2
-        by_a = (1 - alpha_m) / (h**2 * beta * (1 - alpha_f))
-        by_v = gamma / (h * beta)
-        a: Array = -lu_solve(
-            lu_factor(system.mass(q)), system.residual(0.0, q, v, np.zeros_like(q))
-        )
-        blended = a.copy()
-        start = system.residual(0.0, q, v, a)
-        yield Step(0, 0.0, q, v, a, 0, float(np.max(np.abs(start))) / scale)
-        before, factors = a, None
-        for number in range(1, count + 1):
-            time = number * h
-            next_blended = (alpha_f * a - alpha_m * blended) / (1 - alpha_m)
-            q_new = q + h * v + h**2 * ((0.5 - beta) * blended + beta * next_blended)
-            v_new = v + h * ((1 - gamma) * blended + gamma * next_blended)
-            # The predictor continues the acceleration of the last two steps.
-            guess = (2 * a - before) / by_a
-            q_new, v_new, a_new = _correct(q_new, v_new, np.zeros_like(a), guess, by_v, by_a)
-            previous = increment = np.inf
-            last = np.full_like(a, np.inf)
-            for iteration in range(self.max_iterations + 1):
-                r = system.residual(time, q_new, v_new, a_new)
-                size = float(np.max(np.abs(r))) / scale
-                if not np.isfinite(size) or iteration == self.max_iterations:
-                    raise StepFailed(number, time, last)
-                last = r
-                if size <= self.relative_tolerance and increment <= self.increment_tolerance:
-                    break
-                if factors is None or size > self.slow * previous:
-                    stiffness, damping = system.tangents(time, q_new, v_new)
-                    matrix = by_a * system.mass(q_new) + by_v * damping + stiffness
-                    factors = lu_factor(matrix)
-                previous = size
-                step = -lu_solve(factors, r)
-                increment = float(np.max(np.abs(step)))
-                q_new, v_new, a_new = _correct(q_new, v_new, a_new, step, by_v, by_a)
-            blended = next_blended + (1 - alpha_f) / (1 - alpha_m) * a_new
-            before, q, v, a = a, q_new, v_new, a_new
-            yield Step(number, time, q, v, a, iteration, size)
+    slow: float = 0.05
 
 
-def _correct(
-    q: Array, v: Array, a: Array, step: Array, by_v: float, by_a: float
-) -> tuple[Array, Array, Array]:
-    return q + step, v + by_v * step, a + by_a * step
+CONVERGED, DIVERGED, NOT_FINITE = 0, 1, 2
+REASONS = {
+    DIVERGED: "Newton's iteration did not converge",
+    NOT_FINITE: "the residual is not finite",
+}
+
+
+def start(system: Equilibrium, row: Array, q: Array, v: Array) -> Array:
+    """(6, n) state: q, v, the acceleration there, the auxiliary one, those of the two steps before.
+
+    The system's iteration matrix is used as the mass matrix; the residual must be linear in a.
+    """
+    rest = np.zeros_like(q)
+    factorise(system, row, q, v, rest, 0.0, _HUGE)
+    a = rest
+    for _ in range(_REFINEMENTS):
+        a = a - _HUGE * correction(system, residual(system, row, q, v, a))
+    return np.array([q, v, a, a, a, a])
+
+
+_HUGE = 1e12
+"""In 1/s2: beside it the stiffness is rounding in the iteration matrix."""
+_REFINEMENTS = 4
+
+
+def advance(
+    system: SecondOrderSystem, method: Method, state: Array, rows: Array, last: Array
+) -> tuple[int, int, float]:
+    """Take a step for each row of numbers, changing the state (6, n).
+
+    The iteration matrix is made anew at the first step, and when corrections shrink too slowly.
+
+    Returns
+    -------
+    Number of completed steps; CONVERGED, or the reason why the next one failed; and the largest
+    local error of a displacement, |beta - 1/6| h^2 max|a_new - a|. After a failure ``last`` (n,) is
+    the last finite residual, and the state is that of the last completed step.
+    """
+    rho, h = method.spectral_radius, method.step
+    alpha_m, alpha_f = (2 * rho - 1) / (rho + 1), rho / (rho + 1)
+    gamma = 0.5 + alpha_f - alpha_m
+    beta = 0.25 * (gamma + 0.5) ** 2
+    by_a = (1 - alpha_m) / (h**2 * beta * (1 - alpha_f))
+    by_v = gamma / (h * beta)
+    made = False
+    error = 0.0
+    for number in range(len(rows)):
+        row = rows[number]
+        q, v, a, blended, before = state[0], state[1], state[2], state[3], state[4]
+        next_blended = (alpha_f * a - alpha_m * blended) / (1 - alpha_m)
+        # The predictor continues the acceleration of the last three steps.
+        a_new = 3 * (a - before) + state[5]
+        q_new = q + h * v + h**2 * ((0.5 - beta) * blended + beta * next_blended) + a_new / by_a
+        v_new = v + h * ((1 - gamma) * blended + gamma * next_blended) + a_new * (by_v / by_a)
+        previous = np.inf
+        iterations = 0
+        while True:
+            r = residual(system, row, q_new, v_new, a_new)
+            size = np.max(np.abs(r)) / method.scale
+            if not np.isfinite(size):
+                return number, NOT_FINITE, np.inf
+            last[:] = r
+            if not made:
+                factorise(system, row, q_new, v_new, a_new, by_v, by_a)
+                made = True
+            change = correction(system, r)
+            increment = np.max(np.abs(change))
+            small = size <= method.relative_tolerance and increment <= method.increment_tolerance
+            if small and iterations > 0:
+                break
+            if iterations == method.max_iterations:
+                return number, DIVERGED, np.inf
+            if increment > method.slow * previous:
+                factorise(system, row, q_new, v_new, a_new, by_v, by_a)
+                change = correction(system, r)
+                increment = np.max(np.abs(change))
+            previous = increment
+            q_new = q_new - change
+            v_new = v_new - by_v * change
+            a_new = a_new - by_a * change
+            iterations += 1
+        error = max(error, abs(beta - 1 / 6) * h**2 * np.max(np.abs(a_new - a)))
+        state[5] = before
+        state[4] = a
+        state[3] = next_blended + (1 - alpha_f) / (1 - alpha_m) * a_new
+        state[0], state[1], state[2] = q_new, v_new, a_new
+        observe(system, row, state, iterations, size)
+    return len(rows), CONVERGED, error
+
+
+compiled_advance: Any = kernel(advance)
+"""The same, on a system of arrays."""
+
+
+def residual(system: Equilibrium, row: Array, q: Array, v: Array, a: Array) -> Array:
+    return system.residual(row, q, v, a)
+
+
+def factorise(
+    system: Equilibrium, row: Array, q: Array, v: Array, a: Array, by_v: float, by_a: float
+) -> None:
+    system.factorise(row, q, v, a, by_v, by_a)
+
+
+def correction(system: Equilibrium, r: Array) -> Array:
+    return system.correction(r)
+
+
+def observe(
+    system: SecondOrderSystem, row: Array, state: Array, iterations: int, size: float
+) -> None:
+    system.observe(row, state, iterations, size)

@@ -1,4 +1,4 @@
-"""Newton's method for small dense systems."""
+"""Newton's method."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class NewtonResult:
 
 def newton(
     residual: Callable[[Array], Array],
-    tangent: Callable[[Array], Array],
+    correction: Callable[[Array, Array], Array],
     start: Array,
     *,
     scale: float,
@@ -39,6 +39,8 @@ def newton(
 ) -> NewtonResult:
     """Solve residual(x) = 0 with the exact tangent, steps limited in size.
 
+    correction : of x and its residual r gives T(x)^-1 r with the tangent T; LinAlgError ends the
+        search
     scale : size of the terms that the residual is a balance of. Converged means that the residual
         is below ``relative_tolerance * scale`` and the last step below ``increment_tolerance``.
     largest_step : a longer step is shortened so that no entry exceeds it
@@ -55,7 +57,7 @@ def newton(
         if iteration == max_iterations:
             break
         try:
-            step = -np.linalg.solve(tangent(x), r)
+            step = -correction(x, r)
         except np.linalg.LinAlgError:
             break
         increment = float(np.max(np.abs(step)))

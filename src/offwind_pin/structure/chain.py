@@ -1,8 +1,9 @@
 """The lumped chain: multibody beam elements with three revolute joints each.
 
 An element of length l holds two rigid halves and, at its mid-height, revolute joints about x, y and
-z. Neighbouring elements are rigidly joined, so body k is the upper half of element k and the lower
-half of element k + 1; body 0 is the lower half of the first element, at the base.
+z; one that shears has prismatic joints along x and y below them. Neighbouring elements are rigidly
+joined, so body k is the upper half of element k and the lower half of element k + 1; body 0 is the
+lower half of the first element, at the base.
 """
 
 from __future__ import annotations
@@ -21,12 +22,15 @@ from offwind_pin.structure.section import (
     flexibility,
     lump,
     pieces,
+    shear_flexibility,
+    shear_stiffness,
     torsional_stiffness,
 )
 from offwind_pin.turbines.definition import Array, Turbine
 from offwind_pin.turbines.rna import RigidBody, lump_rna
 
 Stiffness = Literal["flexibility", "midpoint"]
+Element = Literal["euler_bernoulli", "timoshenko"]
 Elements = int | Mapping[str, int] | None
 
 ELEMENT_LENGTH = {"pile": 3.0, "monopile": 4.0, "tower": 4.0}
@@ -36,10 +40,14 @@ Chosen by the convergence study in tests/convergence: the first five frequencies
 lie within 0.1 % of the converged ones.
 """
 
-MOST_ELEMENTS = 200
+MOST_ELEMENTS = 1000
 
 ROOT_JOINTS = ("px", "py", "pz", "rx", "ry", "rz")
-NODE_JOINTS = ("rx", "ry", "rz")
+NODE_JOINTS: dict[Element, tuple[str, ...]] = {
+    "euler_bernoulli": ("rx", "ry", "rz"),
+    "timoshenko": ("px", "py", "rx", "ry", "rz"),
+}
+"""Joints of a node from the lower body up: p prismatic along, r revolute about an axis."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,9 +60,11 @@ class Chain:
     free_root : whether the base moves on three prismatic and three revolute joints
     boundary : (N + 1,) heights of the element boundaries in m
     region : N names of the regions that the elements belong to
+    node_joints : joints of a node, see :data:`NODE_JOINTS`
     joint_name : names of all joints in the order of the configuration vector
-    joint_height : (N,) heights of the revolute joints in m
-    joint_stiffness : (N, 3) rotational stiffness about x, y, z in N m/rad
+    joint_height : (N,) heights of the nodes in m
+    joint_stiffness : (N, d) stiffness of each node's joints, in N m/rad of the revolute and in N/m
+        of the prismatic ones
     body : N + 1 rigid bodies, heights of their centres counted as z
     rna : rotor-nacelle assembly, fixed to the last body; offsets from the yaw bearing
     """
@@ -64,6 +74,7 @@ class Chain:
     free_root: bool
     boundary: Array
     region: tuple[str, ...]
+    node_joints: tuple[str, ...]
     joint_name: tuple[str, ...]
     joint_height: Array
     joint_stiffness: Array
@@ -92,7 +103,8 @@ class Chain:
     @property
     def body_name(self) -> list[str]:
         """Names of the N + 1 bodies, from the base upwards."""
-        elements = [name.removesuffix("_rx") for name in self.joint_name[self.roots :: 3]]
+        first = self.joint_name[self.roots :: len(self.node_joints)]
+        elements = [name.rsplit("_", 1)[0] for name in first]
         return ["base", *("_b".join(name.rsplit("_e", 1)) for name in elements)]
 
     def body_at(self, height: Array) -> NDArrayInt:
@@ -110,6 +122,7 @@ def build_chain(
     free_root: bool,
     elements: Elements = None,
     stiffness: Stiffness = "flexibility",
+    element: Element = "euler_bernoulli",
 ) -> Chain:
     """Divide the structure above ``base`` into multibody beam elements.
 
@@ -120,13 +133,16 @@ def build_chain(
     elements : total number, number by region (``{"tower": 30}``), or None for the default
     stiffness : ``"flexibility"`` takes 1 / integral(dz / EI) over the element; ``"midpoint"`` the
         paper's EI / l at mid-height (Rahman et al., MECC 2025, Eq. 3)
+    element : ``"euler_bernoulli"`` is the paper's, of three revolute joints a node;
+        ``"timoshenko"`` has two prismatic joints besides, which shear
 
     Raises
     ------
     InputError : an element number that cannot be met, or a region that is not there
     """
-    if stiffness not in get_args(Stiffness):
-        raise InputError("stiffness", stiffness, ", ".join(get_args(Stiffness)), "Choose one.")
+    for name, value, kinds in (("stiffness", stiffness, Stiffness), ("element", element, Element)):
+        if value not in get_args(kinds):
+            raise InputError(name, value, ", ".join(get_args(kinds)), "Choose one.")
     spans = _regions(turbine, base)
     counts = _element_counts(spans, elements)
     boundary: list[float] = [base]
@@ -148,9 +164,13 @@ def build_chain(
         free_root=free_root,
         boundary=edges,
         region=tuple(region),
-        joint_name=(*root, *(f"{name}_{joint}" for name in names for joint in NODE_JOINTS)),
+        node_joints=NODE_JOINTS[element],
+        joint_name=(
+            *root,
+            *(f"{name}_{joint}" for name in names for joint in NODE_JOINTS[element]),
+        ),
         joint_height=middle,
-        joint_stiffness=_joint_stiffness(turbine, edges, stiffness),
+        joint_stiffness=_joint_stiffness(turbine, edges, stiffness, NODE_JOINTS[element]),
         body=tuple(lump(turbine, low, high) for low, high in itertools.pairwise(cuts)),
         rna=lump_rna(turbine.rna),
     )
@@ -185,7 +205,7 @@ def _element_counts(spans: list[tuple[str, float, float]], elements: Elements) -
         raise InputError(
             "elements",
             sum(counts),
-            f"{MOST_ELEMENTS} at most (Pinocchio's memory grows with the cube of the number)",
+            f"{MOST_ELEMENTS} at most",
             "Use fewer elements; are the heights in m?",
         )
     return counts
@@ -221,22 +241,31 @@ def _share(total: int, weights: list[int], where: str) -> list[int]:
     return [int(count) for count in counts]
 
 
-def _joint_stiffness(turbine: Turbine, boundary: Array, rule: Stiffness) -> Array:
-    """(N, 3) rotational stiffness about x, y, z in N m/rad."""
-    result = np.empty((len(boundary) - 1, 3))
-    for i, (low, high) in enumerate(itertools.pairwise(boundary)):
-        if rule == "flexibility":
-            bending, torsion = (1 / value for value in flexibility(turbine, low, high))
-        else:
-            bending, torsion = _midpoint_stiffness(turbine, low, high)
-        result[i] = bending, bending, torsion
-    return result
+def _joint_stiffness(
+    turbine: Turbine, boundary: Array, rule: Stiffness, joints: tuple[str, ...]
+) -> Array:
+    """(N, d) stiffness of the joints of each node, in N m/rad and N/m."""
+    of_element = _whole_stiffness if rule == "flexibility" else _midpoint_stiffness
+    rows = []
+    for low, high in itertools.pairwise(boundary):
+        bending, torsion, shear = of_element(turbine, low, high)
+        of_joint = {"rx": bending, "ry": bending, "rz": torsion, "px": shear, "py": shear}
+        rows.append([of_joint[joint] for joint in joints])
+    return np.array(rows)
 
 
-def _midpoint_stiffness(turbine: Turbine, low: float, high: float) -> tuple[float, float]:
+def _whole_stiffness(turbine: Turbine, low: float, high: float) -> tuple[float, float, float]:
+    """Stiffness of an element in bending, torsion and shear: one over its flexibility."""
+    bending, torsion = flexibility(turbine, low, high)
+    return 1 / bending, 1 / torsion, 1 / shear_flexibility(turbine, low, high)
+
+
+def _midpoint_stiffness(turbine: Turbine, low: float, high: float) -> tuple[float, float, float]:
+    """The same, of a prism with the section at mid-height."""
     middle = np.array([(low + high) / 2])
     member = next(m for bottom, top, m in pieces(turbine, low, high) if bottom <= middle[0] <= top)
     material = turbine.materials[member.material]
-    bending = bending_stiffness(member, material, middle)[0] / (high - low)
-    torsion = torsional_stiffness(member, material, middle)[0] / (high - low)
-    return float(bending), float(torsion)
+    kinds = (bending_stiffness, torsional_stiffness, shear_stiffness)
+    bending, torsion, shear = (float(of(member, material, middle)[0]) for of in kinds)
+    length = high - low
+    return bending / length, torsion / length, shear / length

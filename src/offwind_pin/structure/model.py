@@ -7,6 +7,7 @@ import threading
 import numpy as np
 import pinocchio as pin
 
+from offwind_pin.errors import InputError
 from offwind_pin.structure.chain import Chain
 from offwind_pin.structure.urdf import write_urdf
 from offwind_pin.turbines.definition import Turbine
@@ -26,6 +27,10 @@ def build_model(turbine: Turbine, chain: Chain) -> pin.Model:
     return model
 
 
+MOST_JOINTS = 700
+"""Pinocchio's scratch data holds tensors of nv^3 numbers: 11 GB for this many joints."""
+
+
 class Scratch:
     """Pinocchio's scratch data for one model, one for each thread, made on first use.
 
@@ -38,6 +43,13 @@ class Scratch:
 
     @property
     def data(self) -> pin.Data:
+        if self._model.nv > MOST_JOINTS:
+            raise InputError(
+                "elements",
+                f"{self._model.nv} joints",
+                f"{MOST_JOINTS} joints at most for what Pinocchio computes (modes, linear models)",
+                "Use fewer elements; statics and time histories take more.",
+            )
         if not hasattr(self._local, "data"):
             self._local.data = self._model.createData()
         return self._local.data

@@ -80,16 +80,45 @@ def torsional_stiffness(member: Member, material: Material, z: Array) -> Array:
     return ratio * bending_stiffness(member, material, z)
 
 
+def shear_stiffness(member: Member, material: Material, z: Array) -> Array:
+    """kappa G A in N at heights z, with the shear coefficient of a hollow circle.
+
+    Cowper, The shear coefficient in Timoshenko's beam theory, J. Appl. Mech. 33 (1966), Table 1.
+    """
+    outer, thickness = diameter_and_thickness(member, z)
+    inner = outer - 2 * thickness
+    poisson = material.youngs_modulus / (2 * material.shear_modulus) - 1
+    ratio = inner / outer
+    square = (1 + ratio**2) ** 2
+    kappa = 6 * (1 + poisson) * square
+    kappa = kappa / ((7 + 6 * poisson) * square + (20 + 12 * poisson) * ratio**2)
+    return kappa * material.shear_modulus * np.pi / 4 * (outer**2 - inner**2)
+
+
+def shear_flexibility(turbine: Turbine, low: float, high: float) -> float:
+    """Integral of 1/(kappa G A) over an interval in m/N, as exact as :func:`flexibility`."""
+    total = 0.0
+    for z, weight, member in _quadrature(turbine, low, high):
+        material = turbine.materials[member.material]
+        total += float(weight @ (1 / shear_stiffness(member, material, z)))
+    return total
+
+
 def flexibility(turbine: Turbine, low: float, high: float) -> tuple[float, float]:
     """Integrals of 1/EI and 1/GJ over an interval, in rad/(N m).
 
     Eight-point Gauss over each linear piece: exact to rounding for any taper a tower has.
     """
     bending = torsion = 0.0
-    for bottom, top, member in pieces(turbine, low, high):
+    for z, weight, member in _quadrature(turbine, low, high):
         material = turbine.materials[member.material]
-        half = (top - bottom) / 2
-        z = bottom + half * (1 + _GAUSS_POINTS)
-        bending += half * float(_GAUSS_WEIGHTS @ (1 / bending_stiffness(member, material, z)))
-        torsion += half * float(_GAUSS_WEIGHTS @ (1 / torsional_stiffness(member, material, z)))
+        bending += float(weight @ (1 / bending_stiffness(member, material, z)))
+        torsion += float(weight @ (1 / torsional_stiffness(member, material, z)))
     return bending, torsion
+
+
+def _quadrature(turbine: Turbine, low: float, high: float) -> Iterator[tuple[Array, Array, Member]]:
+    """Heights and weights of the points of each linear piece of an interval, with its member."""
+    for bottom, top, member in pieces(turbine, low, high):
+        half = (top - bottom) / 2
+        yield bottom + half * (1 + _GAUSS_POINTS), half * _GAUSS_WEIGHTS, member

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from offwind_pin.structure.chain import NODE_JOINTS, Chain
+from offwind_pin.structure.chain import Chain
 from offwind_pin.structure.meshes import Mesh, body_meshes
 from offwind_pin.structure.rotor import rna_meshes
 from offwind_pin.structure.section import outer_diameter
@@ -21,7 +21,8 @@ _YELLOW, _WHITE = "0.93 0.77 0.20 1", "0.88 0.89 0.90 1"
 def write_urdf(turbine: Turbine, chain: Chain) -> str:
     """URDF text of a chain; every number with 17 significant digits.
 
-    A node is three revolute joints in series (x, y, z), with massless links between them. Each body
+    A node is three revolute joints in series (x, y, z), below them two prismatic ones (x, y) where
+    elements shear, with massless links between them. Each body
     has one mesh of its frusta as visual, ``meshes/LINK.stl`` beside the file, and the rotor-nacelle
     assembly one of nacelle, hub and blades (:func:`write_meshes`).
     """
@@ -42,8 +43,8 @@ def write_urdf(turbine: Turbine, chain: Chain) -> str:
     _body(robot, chain, 0)
     parent, height = links[0], chain.base
     for k in range(chain.elements):
-        for i, axis in enumerate(NODE_JOINTS):
-            joint = chain.joint_name[chain.roots + 3 * k + i]
+        for i, axis in enumerate(chain.node_joints):
+            joint = chain.joint_name[chain.roots + len(chain.node_joints) * k + i]
             child = links[k + 1] if axis == "rz" else f"{joint}_link"
             _moving_joint(robot, joint, parent, child, chain.joint_height[k] - height)
             parent, height = child, chain.joint_height[k]
@@ -76,21 +77,30 @@ def write_sidecar(
 ) -> dict[str, Any]:
     """What URDF cannot say, as plain data: stiffness, damping, node map, hash of the definition.
 
-    damping is (N, 3) in N m s/rad, like the joint stiffness.
+    damping is (N, d) like the joint stiffness, in N m s/rad and N s/m.
     """
     node_joints = chain.joint_name[chain.roots :]
     return {
         "turbine": turbine.name,
         "definition_sha256": definition_hash(turbine),
-        "units": {"length": "m", "mass": "kg", "stiffness": "N m/rad", "damping": "N m s/rad"},
+        "units": {
+            "length": "m",
+            "mass": "kg",
+            "stiffness": "N m/rad of revolute, N/m of prismatic joints",
+            "damping": "N m s/rad of revolute, N s/m of prismatic joints",
+        },
+        "node_joints": list(chain.node_joints),
         "joint_stiffness": dict(
             zip(node_joints, chain.joint_stiffness.ravel().tolist(), strict=True)
         ),
         "joint_damping": dict(zip(node_joints, damping.ravel().tolist(), strict=True)),
         "nodes": [
-            {"element": name.removesuffix("_rx"), "region": region, "z_m": float(z)}
+            {"element": name.rsplit("_", 1)[0], "region": region, "z_m": float(z)}
             for name, region, z in zip(
-                node_joints[::3], chain.region, chain.joint_height, strict=True
+                node_joints[:: len(chain.node_joints)],
+                chain.region,
+                chain.joint_height,
+                strict=True,
             )
         ],
         "element_boundaries_z_m": chain.boundary.tolist(),

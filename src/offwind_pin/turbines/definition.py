@@ -281,8 +281,13 @@ class CurveTable(Definition):
 
 
 class SoilDashpot(Definition):
-    """Dashpot beside each spring: C_s(y) = K_s(y) damping_factor / (pi load_frequency)."""
+    """Dashpot beside each spring: C_s = K_s damping_factor / (pi load_frequency).
 
+    K_s is the secant stiffness at the spring's displacement, or the initial one, which makes the
+    dashpot constant.
+    """
+
+    stiffness: Literal["secant", "initial"] = "secant"
     damping_factor: Annotated[NonNegative, Field(le=2)]
     load_frequency: Annotated[Positive, Field(le=100)] = Field(alias="load_frequency_hz")
 

@@ -1,0 +1,313 @@
+"""Integrators of a system's motion behind one protocol: a state and instants in, records out."""
+
+from __future__ import annotations
+
+import logging
+from dataclasses import dataclass
+from typing import Any, Literal, NamedTuple, Protocol
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+from offwind_pin.analysis.static import load_scale
+from offwind_pin.dynamics.compiled_chain import CompiledChain, Run
+from offwind_pin.dynamics.recorder_arrays import Cuts, RecorderArrays, Segments
+from offwind_pin.errors import InputError
+from offwind_pin.solve.generalized_alpha import CONVERGED, REASONS, Method, compiled_advance, start
+from offwind_pin.solve.steps import FixedStep, StepPolicy
+from offwind_pin.turbines.definition import Array
+
+_log = logging.getLogger(__name__)
+
+
+class MotionState(NamedTuple):
+    """Where an integration stands; with the system and the settings it determines all that follows.
+
+    time in s; vectors (6, nv): q, v, acceleration, and what the integrator needs besides; energy,
+    power (2, L + 2) of the recorder; steps : number of steps of the next interval
+    """
+
+    time: float
+    vectors: Array
+    energy: Array
+    power: Array
+    steps: int
+
+
+class StepFailed(Exception):
+    """A step that did not converge: why, when, and its last finite residual (nv,).
+
+    crossed : state and records of the intervals before it in the same call, or None
+    """
+
+    crossed: tuple[MotionState, Records] | None = None
+
+    def __init__(self, reason: str, time: float, residual: Array) -> None:
+        self.reason = reason
+        self.time = time
+        self.residual = residual
+        super().__init__(f"{reason} at {time} s")
+
+
+Sections = tuple[Cuts, Segments]
+"""Cuts at which motion and section loads are recorded, and segments whose balance is."""
+
+Records = dict[str, Array]
+"""Channels by name, over records first; see :class:`RecorderArrays`."""
+
+
+class Integrator(Protocol):
+    """Takes a system from one instant to the next ones."""
+
+    def begin(self, chain: CompiledChain, q: Array, interval: float) -> MotionState:
+        """State at time 0, at rest at joint displacements q; interval between outputs in s."""
+
+    def cross(
+        self, chain: CompiledChain, sections: Sections, state: MotionState, times: Array
+    ) -> tuple[MotionState, Records]:
+        """State at the last of the instants, and records at each of them.
+
+        Raises
+        ------
+        StepFailed : with what the policy allows, a step did not converge
+        """
+
+    def describe(self) -> dict[str, Any]:
+        """Plain data for the results."""
+
+
+class _Crossed(NamedTuple):
+    """State after some intervals, records at their ends, and the largest local error of a step."""
+
+    state: MotionState
+    records: Records
+    error: float
+
+
+@dataclass(frozen=True)
+class GeneralizedAlpha:
+    """Generalised-alpha with modified Newton, in compiled code.
+
+    Attributes
+    ----------
+    policy : of the steps
+    spectral_radius : numerical damping at infinite frequency, 1 for none
+    relative_tolerance, increment_tolerance : see :class:`Method`
+    """
+
+    policy: StepPolicy
+    spectral_radius: float = 0.9
+    relative_tolerance: float = 1e-6
+    increment_tolerance: float = 1e-8
+
+    def __post_init__(self) -> None:
+        if not 0 <= self.spectral_radius <= 1:
+            raise InputError("spectral_radius", self.spectral_radius, "0 to 1", "Correct it.")
+
+    def begin(self, chain: CompiledChain, q: Array, interval: float) -> MotionState:
+        row = chain.rows(np.zeros(1))[0]
+        vectors = start(chain, row, q, np.zeros_like(q))
+        return _at_start(chain, vectors, self.policy.first(interval))
+
+    def cross(
+        self, chain: CompiledChain, sections: Sections, state: MotionState, times: Array
+    ) -> tuple[MotionState, Records]:
+        interval = (times[-1] - state.time) / len(times)
+        if isinstance(self.policy, FixedStep):
+            attempt = self._try(chain, sections, state, times)
+            if isinstance(attempt, _Crossed):
+                return attempt.state, attempt.records
+        pieces: list[Records] = []
+        for time in times:
+            try:
+                state, records = self._cross_interval(chain, sections, state, time, interval)
+            except StepFailed as failure:
+                failure.crossed = (state, _joined(pieces)) if pieces else None
+                raise
+            pieces.append(records)
+        return state, _joined(pieces)
+
+    def _cross_interval(
+        self,
+        chain: CompiledChain,
+        sections: Sections,
+        state: MotionState,
+        time: float,
+        interval: float,
+    ) -> tuple[MotionState, Records]:
+        """One interval, done again with more steps until the policy is content."""
+        while True:
+            attempt = self._try(chain, sections, state, np.array([time]))
+            error = attempt.error if isinstance(attempt, _Crossed) else np.inf
+            steps = self.policy.next(state.steps, error, interval)
+            if isinstance(attempt, _Crossed):
+                if steps <= state.steps:
+                    return attempt.state._replace(steps=steps), attempt.records
+                attempt = _too_inexact(attempt, interval / state.steps)
+            else:
+                _log.warning("%s at t = %.6g s", attempt.reason, attempt.time)
+            if steps > self.policy.most(interval):
+                raise attempt
+            state = state._replace(steps=steps)
+
+    def _try(
+        self, chain: CompiledChain, sections: Sections, state: MotionState, times: Array
+    ) -> _Crossed | StepFailed:
+        """All intervals up to the instants, each with the state's number of steps."""
+        count = state.steps * len(times)
+        step = (times[-1] - state.time) / count
+        instants = state.time + step * np.arange(1, count + 1)
+        method = Method(
+            step,
+            self.spectral_radius,
+            load_scale(chain.system),
+            self.relative_tolerance,
+            self.increment_tolerance,
+        )
+        recorder = _resumed_recorder(chain, sections, state, state.steps, len(times))
+        vectors, last = state.vectors.copy(), np.zeros(state.vectors.shape[1])
+        rows = chain.rows(instants)
+        try:
+            with chain.running():
+                done, reason, error = compiled_advance(
+                    Run(chain.arrays, recorder), method, vectors, rows, last
+                )
+        except np.linalg.LinAlgError:
+            return StepFailed("the iteration matrix is singular", float(instants[0]), last)
+        if reason != CONVERGED:
+            return StepFailed(REASONS[reason], float(instants[done]), last)
+        after = MotionState(float(times[-1]), vectors, recorder.energy, recorder.power, state.steps)
+        return _Crossed(after, _channels(recorder, step), float(error))
+
+    def describe(self) -> dict[str, Any]:
+        return {
+            "integrator": "generalised-alpha",
+            "spectral_radius": self.spectral_radius,
+            "residual_tolerance": self.relative_tolerance,
+            "increment_tolerance": self.increment_tolerance,
+            **self.policy.describe(),
+        }
+
+
+@dataclass(frozen=True)
+class SciPyIVP:
+    """SciPy's solvers for stiff equations on the same equations of motion, by Pinocchio.
+
+    The Jacobian is analytic. A second implementation rather than a fast one; the energies
+    dissipated and worked are summed from output to output only.
+
+    Attributes
+    ----------
+    method : ``"Radau"``, ``"BDF"`` or ``"LSODA"``
+    relative_tolerance, absolute_tolerance : of displacements in m and rad and of their rates
+    """
+
+    method: Literal["Radau", "BDF", "LSODA"] = "Radau"
+    relative_tolerance: float = 1e-8
+    absolute_tolerance: float = 1e-10
+
+    def begin(self, chain: CompiledChain, q: Array, interval: float) -> MotionState:
+        rest = np.zeros_like(q)
+        a = chain.equations().acceleration(0.0, q, rest)
+        return _at_start(chain, np.array([q, rest, a, a, a, a]), 1)
+
+    def cross(
+        self, chain: CompiledChain, sections: Sections, state: MotionState, times: Array
+    ) -> tuple[MotionState, Records]:
+        equations = chain.equations()
+        n = state.vectors.shape[1]
+
+        def rate(time: float, y: Array) -> Array:
+            return np.concatenate([y[n:], equations.acceleration(time, y[:n], y[n:])])
+
+        def jacobian(time: float, y: Array) -> Array:
+            q, v = y[:n], y[n:]
+            a = equations.acceleration(time, q, v)
+            stiffness, damping = equations.tangents(time, q, v, a)
+            by_state = -np.linalg.solve(equations.mass(q), np.hstack([stiffness, damping]))
+            return np.vstack([np.hstack([np.zeros((n, n)), np.eye(n)]), by_state])
+
+        solution = solve_ivp(
+            rate,
+            (state.time, float(times[-1])),
+            np.concatenate(state.vectors[:2]),
+            method=self.method,
+            t_eval=times,
+            rtol=self.relative_tolerance,
+            atol=self.absolute_tolerance,
+            jac=jacobian,
+        )
+        if not solution.success:
+            time = float(solution.t[-1]) if len(solution.t) else state.time
+            raise StepFailed(
+                f"SciPy's {self.method} gave up: {solution.message}", time, np.zeros(n)
+            )
+        recorder = _resumed_recorder(chain, sections, state, 1, len(times))
+        vectors = state.vectors
+        for time, y in zip(times, solution.y.T, strict=True):
+            q, v = y[:n].copy(), y[n:].copy()
+            a = equations.acceleration(time, q, v)
+            chain.note(recorder, chain.rows(np.array([time]))[0], q, v, a, load_scale(chain.system))
+            vectors = np.array([q, v, a, a, a, a])
+        after = MotionState(float(times[-1]), vectors, recorder.energy, recorder.power, 1)
+        return after, _channels(recorder, np.nan)
+
+    def describe(self) -> dict[str, Any]:
+        return {
+            "integrator": f"SciPy {self.method}",
+            "relative_tolerance": self.relative_tolerance,
+            "absolute_tolerance": self.absolute_tolerance,
+        }
+
+
+def first_record(
+    chain: CompiledChain, sections: Sections, state: MotionState
+) -> tuple[MotionState, Records]:
+    """Record of the start, and the state with the powers there."""
+    recorder = _resumed_recorder(chain, sections, state, 1, 1)
+    q, v, a = state.vectors[:3]
+    chain.note(recorder, chain.rows(np.zeros(1))[0], q, v, a, load_scale(chain.system))
+    sums = np.zeros_like(state.energy)
+    return state._replace(energy=sums, power=recorder.power), _channels(recorder, np.nan)
+
+
+def _joined(pieces: list[Records]) -> Records:
+    return {name: np.concatenate([piece[name] for piece in pieces]) for name in pieces[0]}
+
+
+def _at_start(chain: CompiledChain, vectors: Array, steps: int) -> MotionState:
+    sums = np.zeros((2, len(chain.loads) + 2))
+    return MotionState(0.0, vectors, sums, sums, steps)
+
+
+def _resumed_recorder(
+    chain: CompiledChain, sections: Sections, state: MotionState, every: int, records: int
+) -> RecorderArrays:
+    """A recorder whose sums go on from a state; the first record is due after ``every`` steps."""
+    recorder = chain.recorder(sections, every, records)
+    recorder.clock[0] = state.time
+    recorder.energy[:], recorder.power[:] = state.energy, state.power
+    return recorder
+
+
+def _too_inexact(attempt: _Crossed, step: float) -> StepFailed:
+    reason = f"the local error is {attempt.error:.3g} still with steps of {step:.3g} s"
+    return StepFailed(reason, attempt.state.time, np.zeros(attempt.state.vectors.shape[1]))
+
+
+def _channels(recorder: RecorderArrays, step: float) -> Records:
+    """What was recorded, all with steps of one size in s."""
+    names = (
+        "time",
+        "displacement",
+        "acceleration",
+        "section_load",
+        "imbalance",
+        "stored",
+        "dissipated",
+        "worked",
+        "iterations",
+        "residual",
+    )
+    channels = {name: getattr(recorder, name) for name in names}
+    return channels | {"step": np.full(len(recorder.time), step)}

@@ -1,0 +1,169 @@
+"""A system as plain arrays, for compiled code: what is constant, and room for what is computed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from offwind_pin.dynamics.restraints import root_kernel
+from offwind_pin.dynamics.system import System
+from offwind_pin.loads.points import (
+    KernelLoad,
+    force_kernel,
+    no_tangents,
+    nothing_stored,
+)
+from offwind_pin.structure.chain import NDArrayInt
+from offwind_pin.turbines.definition import Array
+
+_SLOTS = 8
+"""Loads are padded to a multiple of this number, so that code compiled once fits most systems."""
+
+
+class ChainArrays(NamedTuple):
+    """The chain, its restraint and its loads, and the state last computed.
+
+    N nodes of d joints (three, or five with shear), r root joints (six or none), nv = r + N d
+    degrees of freedom, P loaded points, L loads. Axes are those of the world, and wrenches and
+    spatial velocities are about the world's origin, linear part first.
+    """
+
+    # What does not change
+    base: float  # height of the base in m
+    roots: int  # root joints
+    node_joints: int  # joints of a node
+    rise: Array  # (N,) distance from each body's frame to the joint above it in m
+    top_rise: float  # from the last body's frame to the yaw bearing in m
+    body: Array  # (N + 1, 4) mass, centre of mass above the frame, transverse and axial inertia
+    rna_mass: float
+    rna_center: Array  # (3,) from the yaw bearing in m
+    rna_inertia: Array  # (3, 3) about the centre of mass in kg m2
+    gravity: float
+    stiffness: Array  # (nv,) of the joint springs
+    damping: Array  # (nv,) of the joint dampers
+    restraint: tuple[Any, ...]  # exchangeable kernel of the root's reaction
+    restraint_numbers: Array  # its constants
+    point_body: NDArrayInt  # (P,) body that carries each loaded point
+    point_offset: Array  # (P,) along it in m
+    point_height: Array  # (P,) undeformed height in m
+    loads: int  # L
+    first_point: NDArrayInt  # (L + 1,) where each load's points begin
+    first_number: NDArrayInt  # (L + 1,) where each load's numbers begin in a row
+    forces: tuple[Any, ...]  # exchangeable kernels of the loads
+    tangents: tuple[Any, ...]
+    energies: tuple[Any, ...]
+    constants: tuple[Array, ...]
+    # What was last computed
+    origin: Array  # (N + 1, 3) place of each body's frame in m
+    rotation: Array  # (N + 1, 3, 3) orientation of each body
+    velocity: Array  # (N + 1, 3) of the frame's origin in m/s
+    spin: Array  # (N + 1, 3) angular velocity in rad/s
+    acceleration: Array  # (N + 1, 3) of the frame's origin in m/s2
+    spin_rate: Array  # (N + 1, 3) in rad/s2
+    joint: Array  # (nv, 6) spatial velocity per unit velocity of each joint
+    motion: Array  # (P, 15) motion of the loaded points
+    force: Array  # (P, 6) forces and moments there
+    lost: Array  # (L,) power that each load dissipates in W
+    wrench: Array  # (N + 1, 6) on each body and all above: loads less inertia and weight
+    root_reaction: Array  # (6,) of the restraint
+    root_stiffness: Array  # (6, 6)
+    root_damping: Array  # (6, 6)
+    root_power: Array  # (2,) power that the restraint dissipates in W, energy it stores in J
+    residual: Array  # (nv,)
+    # The iteration matrix, factorised
+    blocks: Array  # (P, 4, 3, 3) derivatives of the forces
+    articulated: Array  # (N + 1, 6, 6) matrix of each body, then of all above it as well
+    joint_then: Array  # (nv, 6) the joints' columns when it was made
+    carry: Array  # (nv, 6) wrench that a joint passes down per unit of its right side
+    follow: Array  # (nv, 6) how a joint follows the twist below it
+    pivot: Array  # (N + 1, 6, 6) inverted pivot block of each node, the root first
+    lack: Array  # (6,) right sides of a node, on the way down
+    solution: Array  # (nv,)
+
+
+@force_kernel
+def _no_force(motion: Array, constants: Array, row: Array, force: Array) -> float:
+    """Fills an empty slot."""
+    return 0.0
+
+
+def chain_arrays(system: System, loads: Sequence[KernelLoad]) -> ChainArrays:
+    """Arrays of a system under loads."""
+    chain = system.chain
+    n, nv = chain.elements, system.nv
+    height = np.concatenate([np.zeros(0), *(load.height for load in loads)])
+    carrier = chain.body_at(height)
+    origin = chain.origin
+    widths = [load.rows(np.zeros(1), np.zeros(1)).shape[1] for load in loads]
+    root = system.foundation.root
+    empty = -len(loads) % _SLOTS if loads else _SLOTS
+    reaction, numbers = root_kernel(root)
+    return ChainArrays(
+        base=chain.base,
+        roots=chain.roots,
+        node_joints=len(chain.node_joints),
+        rise=np.diff(origin),
+        top_rise=float(chain.top - origin[-1]),
+        body=np.array(
+            [
+                [body.mass, body.center - place, body.transverse, body.axial]
+                for body, place in zip(chain.body, origin, strict=True)
+            ]
+        ),
+        rna_mass=float(chain.rna.mass),
+        rna_center=np.array(chain.rna.center_of_mass, dtype=float),
+        rna_inertia=np.array(chain.rna.inertia, dtype=float),
+        gravity=float(system.turbine.site.gravity),
+        stiffness=system.joint_stiffness,
+        damping=system.joint_damping,
+        restraint=(reaction, reaction),  # two, since Numba specialises code on a lone kernel
+        restraint_numbers=numbers,
+        point_body=carrier,
+        point_offset=height - origin[carrier],
+        point_height=height,
+        loads=len(loads),
+        first_point=np.cumsum([0, *(len(load.height) for load in loads)], dtype=np.intp),
+        first_number=1 + np.cumsum([0, *widths], dtype=np.intp),  # the time comes first
+        forces=tuple(
+            kernel.compiled
+            for kernel in [load.force_kernel for load in loads] + [_no_force] * empty
+        ),
+        tangents=tuple(
+            kernel.compiled
+            for kernel in [load.tangent_kernel for load in loads] + [no_tangents] * empty
+        ),
+        energies=tuple(
+            kernel.compiled
+            for kernel in [load.energy_kernel for load in loads] + [nothing_stored] * empty
+        ),
+        constants=tuple(
+            np.ascontiguousarray(constants, dtype=float)
+            for constants in [load.constants for load in loads] + [np.zeros((0, 0))] * empty
+        ),
+        origin=np.zeros((n + 1, 3)),
+        rotation=np.zeros((n + 1, 3, 3)),
+        velocity=np.zeros((n + 1, 3)),
+        spin=np.zeros((n + 1, 3)),
+        acceleration=np.zeros((n + 1, 3)),
+        spin_rate=np.zeros((n + 1, 3)),
+        joint=np.zeros((nv, 6)),
+        motion=np.zeros((len(height), 15)),
+        force=np.zeros((len(height), 6)),
+        lost=np.zeros(len(loads)),
+        wrench=np.zeros((n + 1, 6)),
+        root_reaction=np.zeros(6),
+        root_stiffness=np.zeros((6, 6)),
+        root_damping=np.zeros((6, 6)),
+        root_power=np.zeros(2),
+        residual=np.zeros(nv),
+        blocks=np.zeros((len(height), 4, 3, 3)),
+        articulated=np.zeros((n + 1, 6, 6)),
+        joint_then=np.zeros((nv, 6)),
+        carry=np.zeros((nv, 6)),
+        follow=np.zeros((nv, 6)),
+        pivot=np.zeros((n + 1, 6, 6)),
+        lack=np.zeros(6),
+        solution=np.zeros(nv),
+    )

@@ -1,0 +1,178 @@
+"""The equations of motion by Pinocchio: residual, mass matrix and tangents, all exact and dense.
+
+    r(t, q, v, a) = rnea(q, v, a) + K q + D v + R(q, v) - Q(t, q, v, a)
+
+with the joint springs and dampers K, D, the root's restraint R, and the generalised force Q of all
+point loads, the added mass's inertia included. Pinocchio gives the rigid bodies and their
+derivatives; everything else acts through the chain's axis.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import pinocchio as pin
+
+from offwind_pin.dynamics.kinematics import AxisPoints, ChainMotion
+from offwind_pin.dynamics.sea import added_mass, water_load
+from offwind_pin.dynamics.system import System
+from offwind_pin.errors import InputError
+from offwind_pin.loads.points import PointForces, PointLoad, PointMotion
+from offwind_pin.turbines.definition import Array
+
+
+@dataclass(frozen=True, eq=False)
+class Evaluation:
+    """One evaluation of the chain and its loads.
+
+    motion : of the chain; points, forces : motion of the loaded points and forces there, the added
+    mass's first
+    """
+
+    motion: ChainMotion
+    points: PointMotion
+    forces: PointForces
+
+
+class Equations:
+    """Residual, mass matrix and tangents of a system under loads.
+
+    Nothing returned points into Pinocchio's scratch data.
+
+    Attributes
+    ----------
+    loads : soil, water and what was given; with water the added mass comes first
+    points : where they act
+    """
+
+    def __init__(self, system: System, loads: Sequence[PointLoad], ramp_time: float) -> None:
+        self.system = system
+        self.chain = system.chain
+        self.ramp_time = ramp_time
+        self.loads = all_loads(system, loads)
+        self._model, self._data = system.pin_model, system.scratch.data
+        heights = [np.zeros(0), *(load.height for load in self.loads)]
+        self.points = AxisPoints.on(system.chain, np.concatenate(heights))
+        edges = np.cumsum([len(height) for height in heights])
+        self._parts = [slice(int(a), int(b)) for a, b in itertools.pairwise(edges)]
+
+    def residual(self, time: float, q: Array, v: Array, a: Array) -> Array:
+        """(nv,) generalised forces out of balance, in N and N m."""
+        state = self.evaluate(time, q, v, a)
+        balance = pin.rnea(self._model, self._data, q, v, a)
+        balance = balance + self.system.joint_stiffness * q + self.system.joint_damping * v
+        balance -= state.motion.generalised_force(
+            self.points, state.points.position, state.forces.force, state.forces.moment
+        )
+        root = self.system.foundation.root
+        if root is not None:
+            balance[:6] += root.reaction(q[:6], v[:6])
+        return balance
+
+    def mass(self, q: Array) -> Array:
+        """(nv, nv) mass matrix dr/da with the added mass."""
+        upper = np.triu(pin.crba(self._model, self._data, q))
+        rest = np.zeros_like(q)
+        loads = self._load_tangents(0.0, q, rest, rest)[2]
+        return upper + np.triu(upper, 1).T + loads
+
+    def tangents(
+        self, time: float, q: Array, v: Array, a: Array | None = None
+    ) -> tuple[Array, Array]:
+        """Stiffness dr/dq and damping dr/dv, both (nv, nv), exact; a is zero unless given."""
+        rate = np.zeros_like(q) if a is None else a
+        by_q, by_v, _ = self._load_tangents(time, q, v, rate)
+        pin.computeRNEADerivatives(self._model, self._data, q, v, rate)
+        stiffness = by_q + self._data.dtau_dq + np.diag(self.system.joint_stiffness)
+        damping = by_v + self._data.dtau_dv + np.diag(self.system.joint_damping)
+        if self.system.foundation.root is not None:
+            by_displacement, by_rate = self.system.foundation.root.tangents(q[:6], v[:6])
+            stiffness[:6, :6] += by_displacement
+            damping[:6, :6] += by_rate
+        return stiffness, damping
+
+    def acceleration(self, time: float, q: Array, v: Array) -> Array:
+        """(nv,) acceleration that satisfies the equations."""
+        lack = self.residual(time, q, v, np.zeros_like(q))
+        return np.asarray(-np.linalg.solve(self.mass(q), lack))
+
+    def evaluate(self, time: float, q: Array, v: Array, a: Array) -> Evaluation:
+        """Motion of the chain and of the loaded points, and every point force."""
+        motion = self.chain_motion(q, v, a)
+        points = motion.points(self.points)
+        force, moment = np.zeros((2, len(self.points.height), 3))
+        rise = float(smooth_ramp(np.array(time), self.ramp_time))
+        for load, part in zip(self.loads, self._parts, strict=True):
+            result = load.forces(time, points[part], rise)
+            force[part], moment[part] = result.force, result.moment
+        return Evaluation(motion, points, PointForces(force, moment))
+
+    def worst_joint(self, residual: Array) -> tuple[str, float]:
+        """Name and size of the largest entry of a residual."""
+        worst = int(np.argmax(np.where(np.isfinite(residual), np.abs(residual), np.inf)))
+        return self.chain.joint_name[worst], float(abs(residual[worst]))
+
+    def chain_motion(self, q: Array, v: Array, a: Array | None = None) -> ChainMotion:
+        """Motion of the chain's axis."""
+        pin.computeJointJacobiansTimeVariation(self._model, self._data, q, v)
+        rate = np.zeros_like(q) if a is None else a
+        return ChainMotion(self.chain, np.array(self._data.J), np.array(self._data.dJ), q, v, rate)
+
+    def _load_tangents(
+        self, time: float, q: Array, v: Array, a: Array
+    ) -> tuple[Array, Array, Array]:
+        """(nv, nv) derivatives of minus the loads' generalised force by q, v and a."""
+        state = self.evaluate(time, q, v, a)
+        rise = float(smooth_ramp(np.array(time), self.ramp_time))
+        by_q, by_v, by_a = np.zeros((3, len(q), len(q)))
+        for load, part in zip(self.loads, self._parts, strict=True):
+            tangents = load.tangents(time, state.points[part], rise)
+            how = state.motion.derivatives(self.points[part], state.points[part])
+            change = np.einsum("nij,njk->nik", tangents.stiffness, how.position)
+            change += np.einsum("nij,njk->nik", tangents.damping, how.velocity_by_q)
+            change += np.einsum("nij,njk->nik", tangents.inertia, how.acceleration_by_q)
+            change += np.einsum("nij,njk->nik", tangents.turning, how.axis)
+            by_q -= np.tensordot(how.position, change, axes=([0, 1], [0, 1]))
+            change = np.einsum("nij,njk->nik", tangents.damping, how.position)
+            change += np.einsum("nij,njk->nik", tangents.inertia, how.acceleration_by_v)
+            by_v -= np.tensordot(how.position, change, axes=([0, 1], [0, 1]))
+            change = np.einsum("nij,njk->nik", tangents.inertia, how.position)
+            by_a -= np.tensordot(how.position, change, axes=([0, 1], [0, 1]))
+        by_q -= state.motion.geometric_stiffness(
+            self.points, state.points.position, state.forces.force, state.forces.moment
+        )
+        return by_q, by_v, by_a
+
+
+def all_loads(system: System, loads: Sequence[PointLoad]) -> list[PointLoad]:
+    """Every point load of a system: the water's, the soil's, and what was given.
+
+    Raises
+    ------
+    InputError : a load beside the structure
+    """
+    water: list[PointLoad] = []
+    if system.sea is not None:
+        water = [added_mass(system.turbine), water_load(system.turbine, system.sea)]
+    everything = [*water, *system.foundation.soil, *loads]
+    for load in everything:
+        outside = (load.height < system.chain.base) | (load.height > system.chain.top)
+        if np.any(outside):
+            raise InputError(
+                f"load {load.name!r}, height",
+                float(load.height[outside][0]),
+                f"{system.chain.base} to {system.chain.top} m",
+                "Loads act on the axis of the structure.",
+            )
+    return everything
+
+
+def smooth_ramp(time: Array, duration: float) -> Array:
+    """(t,) half a cosine from 0 at time 0 to 1 at the end of the ramp."""
+    time = np.asarray(time, dtype=float)
+    if duration == 0:
+        return np.ones_like(time)
+    return 0.5 * (1 - np.cos(np.pi * np.clip(time / duration, 0.0, 1.0)))

@@ -1,0 +1,233 @@
+"""The iteration matrix of Newton's method, factorised and applied in O(N).
+
+Written in spatial velocities, the matrix by_a M + by_v D + K of a chain is
+
+    A = diag(joints) + S' B S - (turning joint axes),
+
+with one 6x6 matrix B for each body. Eliminating the joints from the top down is the recursion of
+the articulated-body algorithm (Featherstone, Rigid Body Dynamics Algorithms, 2008, chapter 7), the
+matrices B in place of the bodies' inertias, and springs in the joints. Nothing is assembled.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from offwind_pin.compiled import kernel
+from offwind_pin.dynamics.balance import body_needs, rna_needs
+from offwind_pin.dynamics.chain_arrays import ChainArrays
+from offwind_pin.dynamics.forward import Vector, axis_of, row_of
+from offwind_pin.turbines.definition import Array
+
+
+@kernel
+def factorise(s: ChainArrays, row: Array, by_v: float, by_a: float) -> None:
+    """Make the iteration matrix anew about the state last evaluated by ``balance``.
+
+    by_v, by_a : derivatives of velocity and acceleration by displacement in the integrator's step,
+        in 1/s and 1/s2; both zero for statics, where the matrix is the exact tangent. In motion the
+        terms of the inertia forces that depend on velocity are left out.
+    """
+    body_matrices(s, by_a)
+    load_matrices(s, row, by_v, by_a)
+    last = len(s.rise)
+    for k in range(last, 0, -1):
+        first = s.roots + s.node_joints * (k - 1)
+        eliminate(s, k, first, s.node_joints, by_v)
+        for i in range(6):
+            for j in range(6):
+                s.articulated[k - 1, i, j] += s.articulated[k, i, j]
+    if s.roots > 0:
+        eliminate(s, 0, 0, s.roots, by_v)
+
+
+@kernel
+def correction(s: ChainArrays, right: Array) -> Array:
+    """(nv,) solution of the factorised system for a right side (nv,)."""
+    down = np.zeros(6)
+    x = s.solution
+    last = len(s.rise)
+    for k in range(last, -1, -1):
+        count = s.node_joints if k > 0 else s.roots
+        first = s.roots + s.node_joints * (k - 1) if k > 0 else 0
+        for i in range(count):
+            lack = right[first + i]
+            for j in range(6):
+                lack -= s.joint_then[first + i, j] * down[j]
+            s.lack[i] = lack
+        for i in range(count):
+            value = 0.0
+            for j in range(count):
+                value += s.pivot[k, i, j] * s.lack[j]
+            x[first + i] = value
+        for i in range(count):
+            for j in range(6):
+                down[j] += s.carry[first + i, j] * x[first + i]
+    down[:] = 0.0  # from here on the twist of the bodies, from the base upwards
+    dof = 0
+    for k in range(last + 1):
+        count = s.node_joints if k > 0 else s.roots
+        for i in range(count):
+            for j in range(6):
+                x[dof + i] -= s.follow[dof + i, j] * down[j]
+        for i in range(count):
+            for j in range(6):
+                down[j] += s.joint_then[dof + i, j] * x[dof + i]
+        dof += count
+    return x
+
+
+@kernel
+def unstable_directions(s: ChainArrays) -> int:
+    """Number of negative eigenvalues of the symmetric part of a factorised tangent.
+
+    By Sylvester's law of inertia it is that of its pivot blocks.
+    """
+    negative = 0
+    for k in range(len(s.rise) + 1):
+        count = s.node_joints if k > 0 else s.roots
+        if count > 0:
+            block = s.pivot[k, :count, :count].copy()
+            negative += int(np.sum(np.linalg.eigvalsh((block + block.T) / 2) <= 0))
+    return negative
+
+
+@kernel
+def eliminate(s: ChainArrays, k: int, first: int, count: int, by_v: float) -> None:
+    """Eliminate the joints below body k; its articulated matrix becomes what the parent feels."""
+    matrix = s.articulated[k]
+    force = (s.wrench[k, 0], s.wrench[k, 1], s.wrench[k, 2])
+    moment = (s.wrench[k, 3], s.wrench[k, 4], s.wrench[k, 5])
+    block = np.zeros((count, count))
+    for i in range(count):
+        dof = first + i
+        turning = axis_turn(s.joint[dof], force, moment)
+        for j in range(6):
+            s.joint_then[dof, j] = s.joint[dof, j]
+            s.carry[dof, j] = 0.0
+            s.follow[dof, j] = -turning[j]
+            for m in range(6):
+                s.carry[dof, j] += matrix[j, m] * s.joint[dof, m]
+                s.follow[dof, j] += matrix[m, j] * s.joint[dof, m]
+        for m in range(i):
+            for j in range(6):
+                block[i, m] -= turning[j] * s.joint[first + m, j]
+        block[i, i] += s.stiffness[dof] + by_v * s.damping[dof]
+    for i in range(count):
+        for m in range(count):
+            for j in range(6):
+                block[i, m] += s.joint[first + i, j] * s.carry[first + m, j]
+    if k == 0:
+        for i in range(count):
+            for m in range(count):
+                block[i, m] += s.root_stiffness[i, m] + by_v * s.root_damping[i, m]
+    inverse = np.linalg.inv(block)
+    follow = np.zeros((count, 6))
+    for i in range(count):
+        for m in range(count):
+            s.pivot[k, i, m] = inverse[i, m]
+            for j in range(6):
+                follow[i, j] += inverse[i, m] * s.follow[first + m, j]
+    for i in range(count):
+        for j in range(6):
+            s.follow[first + i, j] = follow[i, j]
+            for m in range(6):
+                matrix[m, j] -= s.carry[first + i, m] * follow[i, j]
+
+
+@kernel
+def axis_turn(joint: Array, force: Vector, moment: Vector) -> Array:
+    """(6,) work of a held wrench on a joint's column, as the twist below turns that column."""
+    result = np.empty(6)
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        result[i] = joint[3 + j] * force[k] - joint[3 + k] * force[j]
+        result[3 + i] = joint[j] * force[k] - joint[k] * force[j]
+        result[3 + i] += joint[3 + j] * moment[k] - joint[3 + k] * moment[j]
+    return result
+
+
+@kernel
+def body_matrices(s: ChainArrays, by_a: float) -> None:
+    """Set the matrices of the bodies: inertia, and the arms of their weight."""
+    last = len(s.rise)
+    inertia = np.empty((3, 3))
+    for k in range(last + 1):
+        axis = axis_of(s, k)
+        for i in range(3):
+            for j in range(3):
+                inertia[i, j] = (s.body[k, 3] - s.body[k, 2]) * axis[i] * axis[j]
+            inertia[i, i] += s.body[k, 2]
+        need, _, place = body_needs(s, k)
+        s.articulated[k] = 0.0
+        add_inertia(s.articulated[k], by_a, s.body[k, 0], place, inertia)
+        add_arm(s.articulated[k], place, (-need[0], -need[1], -need[2]))
+    need, _, place = rna_needs(s)
+    turn = s.rotation[last].copy()
+    inertia = turn @ s.rna_inertia @ turn.T
+    add_inertia(s.articulated[last], by_a, s.rna_mass, place, inertia)
+    add_arm(s.articulated[last], place, (-need[0], -need[1], -need[2]))
+
+
+@kernel
+def add_inertia(matrix: Array, factor: float, mass: float, place: Vector, inertia: Array) -> None:
+    """Add a rigid body's spatial inertia about the world's origin, times a factor."""
+    square = place[0] ** 2 + place[1] ** 2 + place[2] ** 2
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        matrix[i, i] += factor * mass
+        matrix[i, 3 + j] += factor * mass * place[k]
+        matrix[i, 3 + k] -= factor * mass * place[j]
+        matrix[3 + j, i] += factor * mass * place[k]
+        matrix[3 + k, i] -= factor * mass * place[j]
+        matrix[3 + i, 3 + i] += factor * mass * square
+        for m in range(3):
+            matrix[3 + i, 3 + m] += factor * (inertia[i, m] - mass * place[i] * place[m])
+
+
+@kernel
+def add_arm(matrix: Array, place: Vector, force: Vector) -> None:
+    """Take off the moment that a held force gains as its place moves, d(p x f) = dp x f."""
+    along = place[0] * force[0] + place[1] * force[1] + place[2] * force[2]
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        # -[f] by translation, [f][p] by rotation
+        matrix[3 + i, j] -= force[k]
+        matrix[3 + i, k] += force[j]
+        matrix[3 + i, 3 + i] += along
+        for m in range(3):
+            matrix[3 + i, 3 + m] -= place[i] * force[m]
+
+
+@kernel
+def load_matrices(s: ChainArrays, row: Array, by_v: float, by_a: float) -> None:
+    """Take off the loads' derivatives, and add the arms of their forces."""
+    s.blocks[:] = 0.0
+    for i in range(s.loads):
+        points = slice(s.first_point[i], s.first_point[i + 1])
+        numbers = row[s.first_number[i] : s.first_number[i + 1]]
+        s.tangents[i](s.motion[points], s.constants[i], numbers, s.blocks[points])
+    by_twist = np.empty((3, 6))
+    for i in range(len(s.point_body)):
+        k = s.point_body[i]
+        place = row_of(s.motion, i)
+        axis = (s.motion[i, 9], s.motion[i, 10], s.motion[i, 11])
+        for j in range(3):
+            for m in range(3):
+                by_twist[j, m] = (
+                    s.blocks[i, 0, j, m] + by_v * s.blocks[i, 1, j, m] + by_a * s.blocks[i, 2, j, m]
+                )
+            for m in range(3):
+                n, o = (m + 1) % 3, (m + 2) % 3
+                # a rotation about m moves the point by e_m x p, and turns the axis by e_m x e
+                by_twist[j, 3 + m] = by_twist[j, o] * place[n] - by_twist[j, n] * place[o]
+                by_twist[j, 3 + m] += (
+                    s.blocks[i, 3, j, o] * axis[n] - s.blocks[i, 3, j, n] * axis[o]
+                )
+        matrix = s.articulated[k]
+        for m in range(6):
+            for j in range(3):
+                n, o = (j + 1) % 3, (j + 2) % 3
+                matrix[j, m] -= by_twist[j, m]
+                matrix[3 + j, m] -= place[n] * by_twist[o, m] - place[o] * by_twist[n, m]
+        add_arm(matrix, place, row_of(s.force, i))
