@@ -11,7 +11,7 @@ import hashlib
 import logging
 import os
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import cache, cached_property
 from pathlib import Path
@@ -19,6 +19,7 @@ from typing import Any, TypeVar, cast
 
 from numba import config, njit
 from numba.core.errors import NumbaExperimentalFeatureWarning
+from numba.typed import List
 
 _log = logging.getLogger(__name__)
 
@@ -56,6 +57,20 @@ def exchangeable(signature: Any) -> Callable[[Callable[..., Any]], ExchangeableK
     return lambda function: ExchangeableKernel(function, signature)
 
 
+def compiled_list(items: Sequence[Any]) -> Any:
+    """Exchangeable kernels of one signature, or arrays of one type, as a list for compiled code.
+
+    Numba looks at every item of a tuple whenever it is passed on, and compiles for each length; it
+    does neither for its own lists. There must be one item at least.
+    """
+    ready = [item.compiled if isinstance(item, ExchangeableKernel) else item for item in items]
+    with exchanging_kernels():
+        result = _begin_list((ready[0], ready[0]))
+        for item in ready[1:]:
+            _append(result, (item, item))
+    return result
+
+
 def announce() -> None:
     """Tell in the log that compiling takes a while, where nothing compiled is kept yet."""
     if not any(_cache_directory().rglob("*.nbi")):
@@ -91,3 +106,18 @@ def _cache_directory() -> Path:
         if b"offwind_pin.compiled" in text:
             digest.update(path.relative_to(package).as_posix().encode() + b"\0" + text)
     return root / "offwind-pin" / digest.hexdigest()[:16]
+
+
+# A lone kernel would have a type of its own; a pair of them has that of their signature.
+
+
+@kernel
+def _begin_list(pair: tuple[Any, Any]) -> Any:
+    items = List()
+    items.append(pair[0])
+    return items
+
+
+@kernel
+def _append(items: Any, pair: tuple[Any, Any]) -> None:
+    items.append(pair[0])

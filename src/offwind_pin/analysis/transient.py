@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import json
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
@@ -26,6 +27,7 @@ from offwind_pin.dynamics.sea import IrregularWaves
 from offwind_pin.dynamics.system import System
 from offwind_pin.errors import InputError, InterruptedSimulation, SolverError
 from offwind_pin.loads.points import PointLoad
+from offwind_pin.loads.python_load import PythonLoad
 from offwind_pin.loads.tower_top import LoadHistory, TowerTopLoad, constant_load
 from offwind_pin.results.blocks import BLOCK_FOLDER, Block, BlockStore, FolderStore, MemoryStore
 from offwind_pin.results.dataset import HistoryWriter
@@ -262,10 +264,13 @@ def _fingerprint(chain: CompiledChain, sections: Sections, duration: float) -> s
     """Hash of everything that determines the results besides the settings: loads and heights."""
     digest = hashlib.sha256()
     numbers = chain.rows(np.linspace(0.0, duration, 7))
-    arrays = [numbers, sections[0].height, sections[1].cut, chain.arrays.restraint_numbers]
+    digest.update(json.dumps(chain.system.foundation.describe()).encode())
+    arrays = [numbers, sections[0].height, sections[1].cut]
     arrays += [chain.arrays.stiffness, chain.arrays.damping]
     for load in chain.loads:
-        arrays += [load.height, load.constants]
+        arrays.append(load.height)
+        if not isinstance(load, PythonLoad):  # whose inside is not to be seen
+            arrays.append(load.constants)
         if isinstance(load, TowerTopLoad):
             arrays += [load.history.time, load.history.load, load.mean]
     for array in arrays:

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from offwind_pin.compiled import compiled_list
 from offwind_pin.dynamics.restraints import root_kernel
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.points import (
@@ -17,9 +18,6 @@ from offwind_pin.loads.points import (
 )
 from offwind_pin.structure.chain import NDArrayInt
 from offwind_pin.turbines.definition import Array
-
-_SLOTS = 8
-"""Loads are padded to a multiple of this number, so that code compiled once fits most systems."""
 
 
 class ChainArrays(NamedTuple):
@@ -43,7 +41,7 @@ class ChainArrays(NamedTuple):
     gravity: float
     stiffness: Array  # (nv,) of the joint springs
     damping: Array  # (nv,) of the joint dampers
-    restraint: tuple[Any, ...]  # exchangeable kernel of the root's reaction
+    restraint: Any  # list of one exchangeable kernel: the root's reaction
     restraint_numbers: Array  # its constants
     point_body: NDArrayInt  # (P,) body that carries each loaded point
     point_offset: Array  # (P,) along it in m
@@ -51,10 +49,10 @@ class ChainArrays(NamedTuple):
     loads: int  # L
     first_point: NDArrayInt  # (L + 1,) where each load's points begin
     first_number: NDArrayInt  # (L + 1,) where each load's numbers begin in a row
-    forces: tuple[Any, ...]  # exchangeable kernels of the loads
-    tangents: tuple[Any, ...]
-    energies: tuple[Any, ...]
-    constants: tuple[Array, ...]
+    forces: Any  # lists of the loads' exchangeable kernels, and of their constants; not empty
+    tangents: Any
+    energies: Any
+    constants: Any
     # What was last computed
     origin: Array  # (N + 1, 3) place of each body's frame in m
     rotation: Array  # (N + 1, 3, 3) orientation of each body
@@ -85,7 +83,7 @@ class ChainArrays(NamedTuple):
 
 @force_kernel
 def _no_force(motion: Array, constants: Array, row: Array, force: Array) -> float:
-    """Fills an empty slot."""
+    """Of no load."""
     return 0.0
 
 
@@ -98,7 +96,6 @@ def chain_arrays(system: System, loads: Sequence[KernelLoad]) -> ChainArrays:
     origin = chain.origin
     widths = [load.rows(np.zeros(1), np.zeros(1)).shape[1] for load in loads]
     root = system.foundation.root
-    empty = -len(loads) % _SLOTS if loads else _SLOTS
     reaction, numbers = root_kernel(root)
     return ChainArrays(
         base=chain.base,
@@ -118,7 +115,7 @@ def chain_arrays(system: System, loads: Sequence[KernelLoad]) -> ChainArrays:
         gravity=float(system.turbine.site.gravity),
         stiffness=system.joint_stiffness,
         damping=system.joint_damping,
-        restraint=(reaction, reaction),  # two, since Numba specialises code on a lone kernel
+        restraint=compiled_list([reaction]),
         restraint_numbers=numbers,
         point_body=carrier,
         point_offset=height - origin[carrier],
@@ -126,21 +123,12 @@ def chain_arrays(system: System, loads: Sequence[KernelLoad]) -> ChainArrays:
         loads=len(loads),
         first_point=np.cumsum([0, *(len(load.height) for load in loads)], dtype=np.intp),
         first_number=1 + np.cumsum([0, *widths], dtype=np.intp),  # the time comes first
-        forces=tuple(
-            kernel.compiled
-            for kernel in [load.force_kernel for load in loads] + [_no_force] * empty
-        ),
-        tangents=tuple(
-            kernel.compiled
-            for kernel in [load.tangent_kernel for load in loads] + [no_tangents] * empty
-        ),
-        energies=tuple(
-            kernel.compiled
-            for kernel in [load.energy_kernel for load in loads] + [nothing_stored] * empty
-        ),
-        constants=tuple(
-            np.ascontiguousarray(constants, dtype=float)
-            for constants in [load.constants for load in loads] + [np.zeros((0, 0))] * empty
+        forces=compiled_list([load.force_kernel for load in loads] or [_no_force]),
+        tangents=compiled_list([load.tangent_kernel for load in loads] or [no_tangents]),
+        energies=compiled_list([load.energy_kernel for load in loads] or [nothing_stored]),
+        constants=compiled_list(
+            [np.ascontiguousarray(load.constants, dtype=float) for load in loads]
+            or [np.zeros((0, 0))]
         ),
         origin=np.zeros((n + 1, 3)),
         rotation=np.zeros((n + 1, 3, 3)),

@@ -10,7 +10,7 @@ from weakref import WeakValueDictionary
 import numpy as np
 from numba import objmode, types
 
-from offwind_pin.compiled import exchangeable
+from offwind_pin.compiled import ExchangeableKernel, exchangeable
 from offwind_pin.turbines.definition import Array
 
 _ROW, _MATRIX = types.float64[::1], types.float64[:, ::1]
@@ -109,12 +109,12 @@ def _in_python(
     return 0.0, 0.0
 
 
-def root_kernel(root: RootRestraint | None) -> tuple[Any, Array]:
-    """Compiled kernel of a restraint and its numbers; of no restraint, one that does nothing."""
+def root_kernel(root: RootRestraint | None) -> tuple[ExchangeableKernel, Array]:
+    """Kernel of a restraint and its numbers; of no restraint, one that does nothing."""
     if root is None:
-        return _linear.compiled, np.zeros(72)
+        return _linear, np.zeros(72)
     if isinstance(root, LinearRestraint):
-        return _linear.compiled, np.concatenate([root.stiffness.ravel(), root.damping.ravel()])
+        return _linear, np.concatenate([root.stiffness.ravel(), root.damping.ravel()])
     number = next(_numbers)
     _register[number] = root
-    return _in_python.compiled, np.array([float(number)])
+    return _in_python, np.array([float(number)])
