@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 
 import offwind_pin as ow
 from offwind_pin.display.style import BLUE, PALETTE, styled
+from offwind_pin.structure.chain import Element
 
 CASES = {
     "clamped, dry": ("clamped", None),
@@ -16,7 +17,7 @@ CASES = {
     "distributed springs, still water": ("distributed_springs", ow.StillWater()),
 }
 MODES = ("FA1", "SS1", "FA2", "SS2", "T1")
-ELEMENTS = ("euler_bernoulli", "timoshenko")
+ELEMENTS: tuple[Element, ...] = ("euler_bernoulli", "timoshenko")
 PICTURE = Path(__file__).resolve().parents[1] / "docs" / "images" / "shear.svg"
 
 

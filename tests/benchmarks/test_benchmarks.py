@@ -134,13 +134,14 @@ def test_the_page_shows_what_was_run_and_names_the_rest(results: Path, tmp_path:
 def test_other_codes_stand_beside_ours(tmp_path: Path):
     steps = [
         {"dt_s": 0.1, "failed": "no"},
-        {"dt_s": 0.05, "peak": 1e-2, "rms": 1e-2, "wall_s": 6.0},
+        {"dt_s": 0.05, "peak": 1e-2, "rms": 1e-2, "wall_s": 6.0, "cpu_s": 3.0},
     ]
     rows = {
         "exudyn_chain": {"status": "checked", "steps": steps, "within": {"0.02": steps[1]}},
         "mujoco_chain": {"status": "not run: mujoco is not installed"},
     }
-    own = {"family": page.LIKE_FOR_LIKE, "dt_s": 0.1, "wall_s": 2.0, "error_over_peak": 0.015}
+    own = {"family": page.LIKE_FOR_LIKE, "dt_s": 0.1, "error_over_peak": 0.015}
+    own |= {"wall_s": 2.0, "cpu_s": 1.0}
     part = {
         "simulated_s": 100.0,
         "reference_dt_s": 0.001,
@@ -153,9 +154,10 @@ def test_other_codes_stand_beside_ours(tmp_path: Path):
         "peers": {"machine": "some", "rows": rows},
     }
     ours, exudyn, mujoco = page.codes(reports)
-    assert ours["within"] == {0.02: {"dt_s": 0.1, "wall_s": 2.0}}
+    assert ours["within"] == {0.02: {"dt_s": 0.1, "wall_s": 2.0, "cpu_s": 1.0}}
     assert exudyn["ratio"] == {0.02: 3.0, 0.002: None}
     assert mujoco["status"].startswith("not run")
+    assert page.own_runs({"work_precision": precision | {"elements": 20}}) == []
     text = page.render(reports)
     assert "MuJoCo (not run: mujoco is not installed)" in text
     assert "OpenSees, planar" in text

@@ -106,9 +106,7 @@ def test_default_tolerances_keep_the_order(system: ow.System) -> None:
         assert fitted_order(STEPS, error) == pytest.approx(2.0, abs=0.1)
 
 
-def test_a_first_order_scheme_is_seen(
-    system: ow.System, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_first_order_scheme_is_seen(system: ow.System, monkeypatch: pytest.MonkeyPatch) -> None:
     """Negative control: by backward Euler the same channels converge with the step itself."""
     exact = reference(system, 1.0)
     monkeypatch.setattr(integrators, "compiled_advance", compiled_backward_euler)

@@ -28,7 +28,7 @@ def main() -> None:
         directory=folder,
     )
     in_memory = sum(variable.size * 8 for variable in data.variables.values())
-    print(f"{peak()} {in_memory}")
+    sys.stdout.write(f"{peak()} {in_memory}")
 
 
 def peak() -> int:

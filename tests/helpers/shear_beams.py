@@ -13,9 +13,7 @@ def cowper(poisson: float, ratio: float) -> float:
     Cowper (1966), Table 1: 6 (1 + nu) (1 + m^2)^2 / ((7 + 6 nu) (1 + m^2)^2 + (20 + 12 nu) m^2).
     """
     m, nu = ratio, poisson
-    return (
-        6 * (1 + nu) * (1 + m**2) ** 2 / ((7 + 6 * nu) * (1 + m**2) ** 2 + (20 + 12 * nu) * m**2)
-    )
+    return 6 * (1 + nu) * (1 + m**2) ** 2 / ((7 + 6 * nu) * (1 + m**2) ** 2 + (20 + 12 * nu) * m**2)
 
 
 def ritz_frequencies(

@@ -35,7 +35,7 @@ def problem() -> ModuleType:
 
 @pytest.fixture(scope="module")
 def structure(problem: ModuleType) -> ow.System:
-    return problem.system({"pile": 9, "monopile": 2, "tower": 5})
+    return problem.system({"pile": 12, "monopile": 3, "tower": 5})
 
 
 @pytest.fixture(scope="module")
@@ -105,9 +105,10 @@ def test_problem_is_as_stated(problem: ModuleType, structure: ow.System) -> None
     viscous = soil.constants[:, 2]
     assert viscous == pytest.approx(2e8 * length * 0.1 / (np.pi * 0.236), rel=1e-12)
     assert np.all(soil.constants[:, 1] == 0)
-    root = whole.foundation.root.stiffness
-    assert np.count_nonzero(root) == 2
-    assert (root[2, 2], root[5, 5]) == (1.12e10, 2.55e11)
+    toe = whole.foundation.root
+    assert np.count_nonzero(toe.stiffness) == 2
+    assert (toe.stiffness[2, 2], toe.stiffness[5, 5]) == (1.12e10, 2.55e11)
+    assert not np.any(toe.damping)
     ratio = whole.joint_damping[6:] / whole.joint_stiffness[6:]
     assert ratio * 2 * np.pi * 0.24 / 2 == pytest.approx(0.01, rel=1e-12)
     assert whole.turbine.hydrodynamics.drag_coefficient == 0

@@ -75,7 +75,7 @@ def test_statics_of_an_own_load(coarse: ow.System) -> None:
 
 @pytest.fixture(scope="module")
 def small(undamped: ow.Turbine) -> ow.System:
-    return ow.build(undamped, "clamped", elements=3)
+    return ow.build(undamped, "clamped", elements=2)
 
 
 def push(system: ow.System) -> TowerTopLoad:

@@ -114,7 +114,7 @@ END = 3.0
 
 @pytest.fixture(scope="module")
 def dry(oc6: ow.Turbine) -> ow.System:
-    return ow.build(oc6, "clamped", elements=5, element="timoshenko")
+    return ow.build(oc6, "clamped", elements=3, element="timoshenko")
 
 
 def motion(system: ow.System, integrator: GeneralizedAlpha | SciPyIVP) -> list[Array]:

@@ -29,8 +29,8 @@ def test_three_hours_take_what_ten_minutes_do(tmp_path: Path) -> None:
     short, _ = run(600.0, tmp_path / "short")
     long, results = run(10800.0, tmp_path / "long")
     assert results > ALLOWED
-    assert 50e6 < short
-    assert long - short < ALLOWED / 2
+    assert short > 50e6
+    assert long - short < ALLOWED
     with xr.open_dataset(tmp_path / "long" / "results.nc") as data:
         assert data["time"].to_numpy()[-1] == 10800.0
         assert len(data["time"]) == 108001

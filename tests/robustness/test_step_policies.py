@@ -88,6 +88,17 @@ def test_without_halving_it_fails(tower: ow.System) -> None:
     assert error.joint in str(error)
 
 
+def test_number_of_the_failed_step_is_the_integrator_s(tower: ow.System) -> None:
+    """It counts the steps that were taken, whatever ``dt`` stands beside an integrator."""
+    integrator = GeneralizedAlpha(FixedStep(OUTPUT, halvings=0))
+    with pytest.raises(ow.SolverError) as caught:
+        ow.simulate(
+            tower, END, loads=loads(tower), output_dt=OUTPUT, integrator=integrator, heights=[0.0]
+        )
+    assert caught.value.time == pytest.approx(1.3)
+    assert caught.value.step == 13
+
+
 def test_results_before_a_failure_are_kept(tower: ow.System) -> None:
     """To the bit those of the run that goes through, up to the last output before the failure."""
     whole = run(tower, FixedStep(OUTPUT))

@@ -30,9 +30,7 @@ def misses(values: dict[str, float], reference: dict[str, float]) -> dict[str, f
     [("clamped", CLAMPED_DRY), ("coupled_springs", COUPLED_WET)],
     ids=["clamped", "coupled springs"],
 )
-def test_frequencies(
-    undamped: ow.Turbine, foundation: str, reference: dict[str, float]
-) -> None:
+def test_frequencies(undamped: ow.Turbine, foundation: str, reference: dict[str, float]) -> None:
     """Each within 0.5 %."""
     values = found(undamped, foundation, "timoshenko")
     assert {label: values[label] for label in reference} == pytest.approx(reference, rel=TOLERANCE)
