@@ -89,7 +89,7 @@ def round_body_needs(
     s: ChainArrays, k: int, mass: float, center: float, transverse: float, axial: float
 ) -> tuple[Vector, Vector, Vector]:
     """The same for a round body that moves with body k, its centre that far above the frame."""
-    axis, spin, spin_rate = axis_of(s, k), row_of(s.spin, k), row_of(s.spin_rate, k)
+    axis, spin, spin_rate = axis_of(s.rotation, k), row_of(s.spin, k), row_of(s.spin_rate, k)
     arm = scale(center, axis)
     _, acceleration = carried(
         arm, row_of(s.velocity, k), spin, row_of(s.acceleration, k), spin_rate
@@ -107,7 +107,7 @@ def rna_needs(s: ChainArrays) -> tuple[Vector, Vector, Vector]:
     k = len(s.rise)
     spin, spin_rate = row_of(s.spin, k), row_of(s.spin_rate, k)
     center = (s.rna_center[0], s.rna_center[1], s.rna_center[2] + s.top_rise)
-    arm = to_world(s, k, center)
+    arm = to_world(s.rotation[k], center)
     _, acceleration = carried(
         arm, row_of(s.velocity, k), spin, row_of(s.acceleration, k), spin_rate
     )
@@ -121,18 +121,17 @@ def rna_needs(s: ChainArrays) -> tuple[Vector, Vector, Vector]:
 def rna_inertia_times(s: ChainArrays, vector: Vector) -> Vector:
     """Inertia of the rotor-nacelle assembly about its centre, times a vector of the world."""
     k = len(s.rise)
-    local = to_body(s, k, vector)
+    local = to_body(s.rotation[k], vector)
     turned = (
         dot(row_of(s.rna_inertia, 0), local),
         dot(row_of(s.rna_inertia, 1), local),
         dot(row_of(s.rna_inertia, 2), local),
     )
-    return to_world(s, k, turned)
+    return to_world(s.rotation[k], turned)
 
 
 @kernel
-def to_world(s: ChainArrays, k: int, vector: Vector) -> Vector:
-    turn = s.rotation[k]
+def to_world(turn: Array, vector: Vector) -> Vector:
     return (
         dot(row_of(turn, 0), vector),
         dot(row_of(turn, 1), vector),
@@ -141,8 +140,7 @@ def to_world(s: ChainArrays, k: int, vector: Vector) -> Vector:
 
 
 @kernel
-def to_body(s: ChainArrays, k: int, vector: Vector) -> Vector:
-    turn = s.rotation[k]
+def to_body(turn: Array, vector: Vector) -> Vector:
     return (
         turn[0, 0] * vector[0] + turn[1, 0] * vector[1] + turn[2, 0] * vector[2],
         turn[0, 1] * vector[0] + turn[1, 1] * vector[1] + turn[2, 1] * vector[2],

@@ -128,7 +128,7 @@ def move_points(s: ChainArrays) -> None:
     """Set the motion of the loaded points."""
     for i in range(len(s.point_body)):
         k = s.point_body[i]
-        axis = axis_of(s, k)
+        axis = axis_of(s.rotation, k)
         arm = scale(s.point_offset[i], axis)
         place = add(row_of(s.origin, k), arm)
         velocity, acceleration = carried(
@@ -147,6 +147,6 @@ def move_points(s: ChainArrays) -> None:
 
 
 @kernel
-def axis_of(s: ChainArrays, k: int) -> Vector:
-    """Unit vector along a body, upwards."""
-    return (s.rotation[k, 0, 2], s.rotation[k, 1, 2], s.rotation[k, 2, 2])
+def axis_of(rotation: Array, k: int) -> Vector:
+    """Unit vector along body k of those with orientations (n, 3, 3), upwards."""
+    return (rotation[k, 0, 2], rotation[k, 1, 2], rotation[k, 2, 2])

@@ -153,7 +153,7 @@ def body_matrices(s: ChainArrays, by_a: float) -> None:
     last = len(s.rise)
     inertia = np.empty((3, 3))
     for k in range(last + 1):
-        axis = axis_of(s, k)
+        axis = axis_of(s.rotation, k)
         for i in range(3):
             for j in range(3):
                 inertia[i, j] = (s.body[k, 3] - s.body[k, 2]) * axis[i] * axis[j]

@@ -57,7 +57,7 @@ def record(
     r.time[i], r.iterations[i], r.residual[i] = time, iterations, size
     for m in range(len(r.cuts.height)):
         k = r.cuts.body[m]
-        arm = scale(r.cuts.offset[m], axis_of(s, k))
+        arm = scale(r.cuts.offset[m], axis_of(s.rotation, k))
         place = add(row_of(s.origin, k), arm)
         _, acceleration = carried(
             arm,
@@ -143,7 +143,7 @@ def imbalances(s: ChainArrays, r: RecorderArrays, section_load: Array, result: A
 def cut_place(s: ChainArrays, cuts: Cuts, m: int) -> Vector:
     """Place of a cut in m."""
     k = cuts.body[m]
-    return add(row_of(s.origin, k), scale(cuts.offset[m], axis_of(s, k)))
+    return add(row_of(s.origin, k), scale(cuts.offset[m], axis_of(s.rotation, k)))
 
 
 @kernel
@@ -155,7 +155,7 @@ def store_energies(s: ChainArrays, q: Array, result: Array) -> None:
     for k in range(last + 1):
         if k > 0:
             height += s.rise[k - 1]
-        axis, spin = axis_of(s, k), row_of(s.spin, k)
+        axis, spin = axis_of(s.rotation, k), row_of(s.spin, k)
         arm = scale(s.body[k, 1], axis)
         velocity = add(row_of(s.velocity, k), cross(spin, arm))
         along = dot(axis, spin)
@@ -165,7 +165,7 @@ def store_energies(s: ChainArrays, q: Array, result: Array) -> None:
         rise = s.origin[k, 2] + arm[2] - (height + s.body[k, 1])
         gravitational += s.body[k, 0] * s.gravity * rise
     center = (s.rna_center[0], s.rna_center[1], s.rna_center[2] + s.top_rise)
-    arm, spin = to_world(s, last, center), row_of(s.spin, last)
+    arm, spin = to_world(s.rotation[last], center), row_of(s.spin, last)
     velocity = add(row_of(s.velocity, last), cross(spin, arm))
     kinetic += s.rna_mass * dot(velocity, velocity) / 2
     kinetic += dot(spin, rna_inertia_times(s, spin)) / 2
@@ -184,18 +184,18 @@ def add_energies(s: ChainArrays, r: RecorderArrays, v: Array, step: float) -> No
     dampers = 0.0
     for i in range(len(v)):
         dampers += s.damping[i] * v[i] ** 2
-    add_power(r, 0, 0, dampers, step)
-    add_power(r, 0, 1, s.root_power[0], step)
+    add_power(r.energy[0], r.power[0], 0, dampers, step)
+    add_power(r.energy[0], r.power[0], 1, s.root_power[0], step)
     for i in range(s.loads):
-        add_power(r, 0, 2 + i, s.lost[i], step)
+        add_power(r.energy[0], r.power[0], 2 + i, s.lost[i], step)
         if not r.stores[i]:
-            add_power(r, 1, 2 + i, power_of(s, i) + s.lost[i], step)
+            add_power(r.energy[1], r.power[1], 2 + i, power_of(s, i) + s.lost[i], step)
 
 
 @kernel
-def add_power(r: RecorderArrays, kind: int, column: int, power: float, step: float) -> None:
-    r.energy[kind, column] += step * (r.power[kind, column] + power) / 2
-    r.power[kind, column] = power
+def add_power(energy: Array, before: Array, column: int, power: float, step: float) -> None:
+    energy[column] += step * (before[column] + power) / 2
+    before[column] = power
 
 
 @kernel

@@ -14,6 +14,11 @@ import xarray as xr
 
 _FULL_PRECISION = {"time", "height", "mudline_moment", "mudline_force", "tower_top_displacement"}
 
+_CHUNK = 256
+"""Instants that a file holds, and a reader reads, at once."""
+_CACHE_BYTES = 2**20
+"""Memory for the chunks of each variable while a file is written; the default is 16 times that."""
+
 
 @contextmanager
 def whole_file(path: Path) -> Iterator[Path]:
@@ -52,6 +57,8 @@ def append_netcdf(path: Path, parts: Iterator[xr.Dataset]) -> None:
         encoding = _encoding(first)
         first.to_netcdf(temporary, engine="netcdf4", encoding=encoding, unlimited_dims=unlimited)
         with netCDF4.Dataset(temporary, "a") as file:
+            for kept in file.variables.values():
+                kept.set_var_chunk_cache(size=_CACHE_BYTES)
             for part in parts:
                 begin = len(file.dimensions["time"])
                 for name, variable in part.variables.items():
@@ -60,8 +67,15 @@ def append_netcdf(path: Path, parts: Iterator[xr.Dataset]) -> None:
 
 
 def _encoding(data: xr.Dataset) -> dict[Any, dict[str, Any]]:
-    return {
-        name: {"zlib": True, "complevel": 1}
-        | ({} if name in _FULL_PRECISION or variable.ndim < 3 else {"dtype": "float32"})
-        for name, variable in data.data_vars.items()
-    }
+    encoding = {}
+    for name, variable in data.variables.items():
+        how: dict[str, Any] = {}
+        if "time" in variable.dims:
+            # Left to itself the file has one chunk for each instant.
+            how["chunksizes"] = [_CHUNK if d == "time" else data.sizes[d] for d in variable.dims]
+        if name in data.data_vars:
+            how |= {"zlib": True, "complevel": 1}
+            if variable.ndim >= 3 and name not in _FULL_PRECISION:
+                how["dtype"] = "float32"
+        encoding[name] = how
+    return encoding
