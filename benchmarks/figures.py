@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -40,6 +39,7 @@ OWN = {
 }
 """Colour, marker and line of each integrator."""
 PEERS = {
+    "offwind_chain": ("offwind-pin", BLUE, "*"),
     "opensees_pdelta": ("OpenSees, PDelta", VERMILLION, "o"),
     "opensees_pdelta_linear": ("OpenSees, PDelta, linear solution", ORANGE, "s"),
     "opensees_planar": ("OpenSees, planar", PURPLE, "D"),
@@ -130,22 +130,19 @@ def work_precision(part: Report) -> Figure:
 
 
 @styled
-def peers(rows: dict[str, Report], own: Sequence[Report]) -> Figure:
+def peers(rows: dict[str, Report]) -> Figure:
     """Error over wall time, and over the step, of other codes and our own on problem P."""
     figure = Figure(figsize=(FULL_WIDTH, 1.1 * _HEIGHT))
     left, right = figure.subplots(1, 2, sharey=True, width_ratios=(1.35, 1))
-    if own:
-        error = [row["error_over_peak"] for row in own]
-        look: Any = {"color": BLUE, "marker": "*", "ms": 9, "lw": 2.2}
-        left.plot([row["wall_s"] for row in own], error, label="offwind-pin", **look)
-        right.plot([row["dt_s"] for row in own], error, **look)
     for name, row in rows.items():
         label, color, marker = PEERS.get(name, (name, MUTED, "x"))
         steps = [step for step in row.get("steps", []) if step.get("peak", 0.0) > 0]
         if not steps:
             continue
         error = [step["peak"] for step in steps]
-        look = {"color": color, "marker": marker, "ms": 5, "ls": "--"}
+        look: Any = {"color": color, "marker": marker, "ms": 5, "ls": "--"}
+        if name == "offwind_chain":
+            look |= {"ms": 9, "ls": "-", "lw": 2.2}
         left.plot([step["wall_s"] for step in steps], error, label=label, **look)
         right.plot([step["dt_s"] for step in steps], error, **look)
     for axes in (left, right):

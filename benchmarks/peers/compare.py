@@ -10,8 +10,8 @@ from __future__ import annotations
 import argparse
 import json
 import os
-import platform
 import statistics
+import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,6 +19,10 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+sys.path.append(str(Path(__file__).parents[1]))
+
+import measuring
 from problem import PeerRun
 from problem_p import DURATION
 from reference import expectations
@@ -45,6 +49,14 @@ class Entry:
     module: str
     first_fine_step: float = 0.005
 
+
+FASTER = {
+    ("opensees_pdelta", 0.02): 10.0,
+    ("opensees_pdelta", 0.002): 5.0,
+    ("opensees_corotational", 0.02): 50.0,
+    ("opensees_corotational", 0.002): 25.0,
+}
+"""Ratios asked for, by peer and error."""
 
 ENTRIES = (
     Entry("offwind_chain"),
@@ -75,17 +87,30 @@ def main(argv: list[str] | None = None) -> dict[str, Any]:
             if solution is not None:
                 fine[entry.module] = solution
             print(json.dumps({entry.module: rows[entry.module]}, indent=2), flush=True)
-    report = {
-        "machine": platform.processor() or platform.machine(),
-        "load_average": [*before, *os.getloadavg()],
-        "expected": expected,
-        "rows": rows,
-        "agreement": agreement(fine),
-    }
-    arguments.out.parent.mkdir(parents=True, exist_ok=True)
-    arguments.out.write_text(json.dumps(report, indent=2) + "\n")
-    print(json.dumps(report["agreement"], indent=2))
-    return report
+    return measuring.write(
+        arguments.out,
+        {
+            "load_average_before": before[0],
+            "expected": expected,
+            "rows": rows,
+            "agreement": agreement(fine),
+            "targets": targets(rows),
+        },
+    )
+
+
+def targets(rows: dict[str, Any]) -> list[dict[str, Any]]:
+    """How many times faster ours must be, and is, on the wall, at each error."""
+    found = []
+    for (module, limit), allowed in FASTER.items():
+        both = [rows.get(name, {}).get("within", {}) for name in (module, "offwind_chain")]
+        there = all(str(limit) in within for within in both)
+        theirs, ours = (within[str(limit)]["wall_s"] if there else 1.0 for within in both)
+        what = f"wall time of {module} over ours at {100 * limit:g} % error"
+        found.append(
+            measuring.target(what, allowed, theirs / ours if there else None, at_least=True)
+        )
+    return found
 
 
 def measure(
