@@ -31,11 +31,11 @@ OUTPUT = 0.05
 STEPS = (0.2, 0.1, 0.05, 0.025, 0.0125, 0.005, 0.0025)
 RADII = (1.0, 0.9, 0.5)
 STEP_TOLERANCES = (1e-6, 1e-7, 1e-8, 1e-9)
-SCIPY_TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6)
+SCIPY_TOLERANCES = (1e-2, 1e-3, 1e-4)
 """Relative; the absolute one is a thousandth."""
-TIGHT = 1e-8
+TIGHT = 1e-6
 FINE = 0.001
-SHORT = 3.0
+SHORT = 2.0
 
 
 def main(argv: list[str] | None = None) -> dict[str, Any]:

@@ -17,6 +17,6 @@ def export_urdf(system: System, out: Path) -> list[Path]:
             temporary.write_bytes(content)
     urdf, sidecar = out / f"{turbine.name}.urdf", out / f"{turbine.name}.json"
     write_text(urdf, write_urdf(turbine, chain))
-    damping = system.joint_damping[chain.roots :].reshape(-1, 3)
+    damping = system.joint_damping[chain.roots :].reshape(chain.joint_stiffness.shape)
     write_json(sidecar, write_sidecar(turbine, chain, damping, system.foundation.describe()))
     return [urdf, sidecar]
