@@ -22,6 +22,7 @@ from offwind_pin.display.style import (
     powers_of_ten,
     styled,
 )
+from offwind_pin.display.wording import count
 
 Report = dict[str, Any]
 
@@ -107,7 +108,7 @@ def step_cost(report: Report) -> Figure:
 @styled
 def work_precision(part: Report) -> Figure:
     """Error of each integrator over wall time, and over the step where there is one."""
-    figure = Figure(figsize=(FULL_WIDTH, 1.1 * _HEIGHT))
+    figure = Figure(figsize=(FULL_WIDTH, 1.2 * _HEIGHT))
     left, right = figure.subplots(1, 2, sharey=True, width_ratios=(1.35, 1))
     for family, (color, marker, line) in OWN.items():
         rows = [row for row in part["runs"] if row["family"] == family]
@@ -122,7 +123,7 @@ def work_precision(part: Report) -> Figure:
     left.margins(x=0.12)
     _log(left, "wall time in s", "largest difference over peak")
     left.set_title("Error over wall time")
-    left.legend(fontsize=8.5)
+    figure.legend(loc="outside lower center", ncols=4, fontsize=8.5)
     _log(right, "step in s", "")
     right.set_title("Error over the step")
     _slope(right, 2)
@@ -132,7 +133,7 @@ def work_precision(part: Report) -> Figure:
 @styled
 def peers(rows: dict[str, Report]) -> Figure:
     """Error over wall time, and over the step, of other codes and our own on problem P."""
-    figure = Figure(figsize=(FULL_WIDTH, 1.1 * _HEIGHT))
+    figure = Figure(figsize=(FULL_WIDTH, 1.2 * _HEIGHT))
     left, right = figure.subplots(1, 2, sharey=True, width_ratios=(1.35, 1))
     for name, row in rows.items():
         label, color, marker = PEERS.get(name, (name, MUTED, "x"))
@@ -150,7 +151,7 @@ def peers(rows: dict[str, Report]) -> Figure:
         axes.axhline(0.002, color=MUTED, lw=0.8, ls=":")
     _log(left, "wall time in s", "largest difference over peak")
     left.set_title("Error over wall time")
-    left.legend(fontsize=8.5)
+    figure.legend(loc="outside lower center", ncols=4, fontsize=8.5)
     _log(right, "step in s", "")
     right.set_title("Error over the step")
     return figure
@@ -172,7 +173,7 @@ def pure_python(report: Report) -> Figure:
             label=name.replace("_", ", "),
         )
     _log(axes, "degrees of freedom", "times faster than pure Python")
-    axes.legend()
+    axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
     return figure
 
 
@@ -185,7 +186,9 @@ def cases_per_hour(report: Report) -> Figure:
     n = np.array([row["processes"] for row in rows], dtype=float)
     rate = np.array([row["cases_per_hour"] for row in rows])
     bars = axes.bar(n, rate, 0.6, color=BLUE, label="measured")
-    axes.bar_label(bars, [f"{value:,.0f}" for value in rate], padding=2)
+    axes.bar_label(
+        bars, [count(round(value)) for value in rate], label_type="center", color="white"
+    )
     axes.plot(n, rate[0] / n[0] * n, color=VERMILLION, marker="D", ls="--", label="in proportion")
     axes.set_xticks(n, [f"{value:g}" for value in n])
     axes.set_xlabel("processes")

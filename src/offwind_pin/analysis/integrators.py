@@ -37,15 +37,17 @@ class MotionState(NamedTuple):
 class StepFailed(Exception):
     """A step that did not converge: why, when, and its last finite residual (nv,).
 
+    number : of the step, counted in the steps that the policy begins with
     crossed : state and records of the intervals before it in the same call, or None
     """
 
     crossed: tuple[MotionState, Records] | None = None
 
-    def __init__(self, reason: str, time: float, residual: Array) -> None:
+    def __init__(self, reason: str, time: float, residual: Array, number: int) -> None:
         self.reason = reason
         self.time = time
         self.residual = residual
+        self.number = number
         super().__init__(f"{reason} at {time} s")
 
 
@@ -155,7 +157,8 @@ class GeneralizedAlpha:
     ) -> _Crossed | StepFailed:
         """All intervals up to the instants, each with the state's number of steps."""
         count = state.steps * len(times)
-        step = (times[-1] - state.time) / count
+        interval = (times[-1] - state.time) / len(times)
+        step = interval / state.steps
         instants = state.time + step * np.arange(1, count + 1)
         method = Method(
             step,
@@ -173,11 +176,17 @@ class GeneralizedAlpha:
                     Run(chain.arrays, recorder), method, vectors, rows, last
                 )
         except np.linalg.LinAlgError:
-            return StepFailed("the iteration matrix is singular", float(instants[0]), last)
+            reason = "the iteration matrix is singular"
+            return StepFailed(reason, instants[0], last, self._number(instants[0], interval))
         if reason != CONVERGED:
-            return StepFailed(REASONS[reason], float(instants[done]), last)
+            number = self._number(instants[done], interval)
+            return StepFailed(REASONS[reason], float(instants[done]), last, number)
         after = MotionState(float(times[-1]), vectors, recorder.energy, recorder.power, state.steps)
         return _Crossed(after, _channels(recorder, step), float(error))
+
+    def _number(self, time: float, interval: float) -> int:
+        """Number of the step that ends at a time, in the steps that the policy begins with."""
+        return round(time / interval * self.policy.first(interval))
 
     def describe(self) -> dict[str, Any]:
         return {
@@ -239,9 +248,8 @@ class SciPyIVP:
         )
         if not solution.success:
             time = float(solution.t[-1]) if len(solution.t) else state.time
-            raise StepFailed(
-                f"SciPy's {self.method} gave up: {solution.message}", time, np.zeros(n)
-            )
+            reason = f"SciPy's {self.method} gave up: {solution.message}"
+            raise StepFailed(reason, time, np.zeros(n), len(solution.t))
         recorder = _resumed_recorder(chain, sections, state, 1, len(times))
         vectors = state.vectors
         for time, y in zip(times, solution.y.T, strict=True):
@@ -292,7 +300,8 @@ def _resumed_recorder(
 
 def _too_inexact(attempt: _Crossed, step: float) -> StepFailed:
     reason = f"the local error is {attempt.error:.3g} still with steps of {step:.3g} s"
-    return StepFailed(reason, attempt.state.time, np.zeros(attempt.state.vectors.shape[1]))
+    nothing = np.zeros(attempt.state.vectors.shape[1])
+    return StepFailed(reason, attempt.state.time, nothing, round(attempt.state.time / step))
 
 
 def _channels(recorder: RecorderArrays, step: float) -> Records:

@@ -150,7 +150,7 @@ def simulate(
         raise SolverError(
             f"the time step did not converge: {failure.reason} (a smaller dt may help)",
             time=failure.time,
-            step=round(failure.time / dt),
+            step=failure.number,
             joint=joint,
             residual=size,
             results=writer.write(store, "failed", directory),

@@ -12,8 +12,9 @@ from offwind_pin.turbines.definition import Array
 _LARGEST_EXPONENT = 700.0
 _BLOCK = 128
 """Times for which all components are held in memory at once."""
-_SAME = 1e-11
-"""Seconds by which times may differ and still share cosines: a ten-billionth of a wave's phase."""
+_DECIMALS = 10
+"""Of times in s within a block: steps that differ by rounding only share their cosines, and the
+phase of the shortest wave is met within 1e-9."""
 _ROUNDING = 1e-14
 """Singular values below this part of the largest are rounding."""
 _STREAM = 1
@@ -164,9 +165,14 @@ class WaveKinematics:
         return result
 
     def _turned(self, offset: Array) -> tuple[Array, Array]:
-        """(t, m) cosines and sines of the components at times from a start."""
+        """(t, m) cosines and sines of the components at times from a start.
+
+        The times are rounded first, so that what comes out depends on them alone, and not on
+        whether it was kept.
+        """
+        offset = np.round(offset, _DECIMALS)
         kept = self._kept
-        if kept is None or len(kept[0]) != len(offset) or np.any(abs(kept[0] - offset) > _SAME):
+        if kept is None or not np.array_equal(kept[0], offset):
             angle = np.outer(offset, self.omega)
             kept = (offset, np.cos(angle), np.sin(angle))
             object.__setattr__(self, "_kept", kept)

@@ -76,7 +76,7 @@ class FolderStore:
     def __init__(self, folder: Path, run: dict[str, object]) -> None:
         self.folder = folder
         self._label = folder / "run.json"
-        if folder.exists():
+        if self._label.exists() or self._path(0).exists():
             self._check_owner(run)
         else:
             write_json(self._label, run)
