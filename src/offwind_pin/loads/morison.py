@@ -196,6 +196,8 @@ class MorisonForce(KernelLoad):
 
     def rows(self, time: Array, rise: Array) -> Array:
         """(t, 6 n) velocity and acceleration of the water at the strips."""
+        if len(self.kinematics.omega) == 0:
+            return np.zeros((len(time), 6 * len(self.height)))
         return rise[:, None] * self.kinematics.at_times(time).reshape(len(time), -1)
 
 

@@ -53,10 +53,10 @@ class HistoryWriter:
         """
         start = np.sum(next(iter(store))["stored"][0]) if len(store) else 0.0
         if directory is None:
-            whole = [self._dataset(block, status, start) for block in store]
-            return xr.concat(
-                whole, "time", data_vars="minimal", combine_attrs="override", join="override"
-            )
+            blocks = list(store)
+            records = [name for name in blocks[0] if not name.startswith("state_")]
+            whole = {name: np.concatenate([block[name] for block in blocks]) for name in records}
+            return self._dataset(whole, status, start)
         path = Path(directory) / "results.nc"
         append_netcdf(path, (self._dataset(block, status, start) for block in store))
         return xr.open_dataset(path, engine="netcdf4")
