@@ -93,7 +93,7 @@ class CompiledChain:
         self, height: Array, segments: Sequence[tuple[float, float]] = ()
     ) -> tuple[Cuts, Segments]:
         """Cuts at heights (m,) in m for section loads and motions, and segments between them."""
-        cuts = make_cuts(self.system, self.arrays, height)
+        cuts = make_cuts(self.system, self.arrays, np.array(height, dtype=float))
         return cuts, make_segments(self.system, self.arrays, cuts, segments)
 
     def recorder(

@@ -6,7 +6,7 @@ Each file is written whole and holds the state at its end, so that a run goes on
 from __future__ import annotations
 
 import json
-import shutil
+import zipfile
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Protocol
@@ -99,15 +99,29 @@ class FolderStore:
         return self._read(self._count - 1)
 
     def remove(self) -> None:
-        """Delete the folder, once its blocks stand elsewhere."""
-        shutil.rmtree(self.folder)
+        """Delete the folder, once its blocks stand elsewhere.
+
+        The label goes last, so that what a kill leaves is still known for this run's.
+        """
+        for number in reversed(range(self._count)):
+            self._path(number).unlink()
+        for path in self.folder.iterdir():
+            if path != self._label:
+                path.unlink()
+        self._label.unlink()
+        self.folder.rmdir()
 
     def _path(self, number: int) -> Path:
         return self.folder / f"block_{number:06d}.npz"
 
     def _read(self, number: int) -> Block:
-        with np.load(self._path(number), allow_pickle=False) as file:
-            return {name: file[name] for name in file.files}
+        path = self._path(number)
+        try:
+            with np.load(path, allow_pickle=False) as file:
+                return {name: file[name] for name in file.files}
+        except (OSError, ValueError, zipfile.BadZipFile) as error:
+            remedy = "Delete the folder to start anew."
+            raise InputError(str(path), str(error), "a whole block of results", remedy) from None
 
     def _check_owner(self, run: dict[str, object]) -> None:
         try:

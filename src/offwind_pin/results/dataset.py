@@ -58,6 +58,8 @@ class HistoryWriter:
             whole = {name: np.concatenate([block[name] for block in blocks]) for name in records}
             return self._dataset(whole, status, start)
         path = Path(directory) / "results.nc"
+        for left_by_a_kill in path.parent.glob(".results.*.nc"):
+            left_by_a_kill.unlink()
         append_netcdf(path, (self._dataset(block, status, start) for block in store))
         return xr.open_dataset(path, engine="netcdf4")
 
