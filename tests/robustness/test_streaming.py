@@ -305,3 +305,19 @@ def test_failed_run_with_a_directory(system: ow.System, tmp_path: Path) -> None:
     assert times[0] == times[1]
     assert 50.0 < times[0][0] < 90.0
     assert seen == [[20.0, 40.0], []]
+
+
+def test_a_damaged_block_is_named(system: ow.System, tmp_path: Path) -> None:
+    """A block cut short by something else than a kill: its file and the remedy are told."""
+    interrupted(system, tmp_path)
+    block = sorted((tmp_path / BLOCK_FOLDER).glob("block_*.npz"))[-1]
+    block.write_bytes(block.read_bytes()[:100])
+    with pytest.raises(ow.InputError, match=block.name):
+        run(system, "fixed", tmp_path)
+
+
+def test_a_half_written_file_of_results_goes(system: ow.System, tmp_path: Path) -> None:
+    """What a kill left while results.nc was written is gone once it stands."""
+    tmp_path.joinpath(".results.0123.nc").write_bytes(b"half")
+    run(system, "fixed", tmp_path).close()
+    assert [path.name for path in tmp_path.iterdir()] == ["results.nc"]

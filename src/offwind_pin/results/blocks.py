@@ -117,7 +117,7 @@ class FolderStore:
     def _read(self, number: int) -> Block:
         path = self._path(number)
         try:
-            with np.load(path, allow_pickle=False) as file:
+            with path.open("rb") as raw, np.load(raw, allow_pickle=False) as file:
                 return {name: file[name] for name in file.files}
         except (OSError, ValueError, zipfile.BadZipFile) as error:
             remedy = "Delete the folder to start anew."
