@@ -314,6 +314,8 @@ def test_a_damaged_block_is_named(system: ow.System, tmp_path: Path) -> None:
     block.write_bytes(block.read_bytes()[:100])
     with pytest.raises(ow.InputError, match=block.name):
         run(system, "fixed", tmp_path)
+    with pytest.raises(ow.InputError, match=block.name):
+        time_reached(tmp_path)
 
 
 def test_a_half_written_file_of_results_goes(system: ow.System, tmp_path: Path) -> None:

@@ -115,13 +115,7 @@ class FolderStore:
         return self.folder / f"block_{number:06d}.npz"
 
     def _read(self, number: int) -> Block:
-        path = self._path(number)
-        try:
-            with path.open("rb") as raw, np.load(raw, allow_pickle=False) as file:
-                return {name: file[name] for name in file.files}
-        except (OSError, ValueError, zipfile.BadZipFile) as error:
-            remedy = "Delete the folder to start anew."
-            raise InputError(str(path), str(error), "a whole block of results", remedy) from None
+        return _read_block(self._path(number))
 
     def _check_owner(self, run: dict[str, object]) -> None:
         try:
@@ -147,5 +141,13 @@ def time_reached(directory: Path) -> float:
     files = sorted((directory / BLOCK_FOLDER).glob("block_*.npz"))
     if not files:
         return 0.0
-    with np.load(files[-1], allow_pickle=False) as file:
-        return float(file["time"][-1])
+    return float(_read_block(files[-1])["time"][-1])
+
+
+def _read_block(path: Path) -> Block:
+    try:
+        with path.open("rb") as raw, np.load(raw, allow_pickle=False) as file:
+            return {name: file[name] for name in file.files}
+    except (OSError, ValueError, zipfile.BadZipFile) as error:
+        remedy = "Delete the folder to start anew."
+        raise InputError(str(path), str(error), "a whole block of results", remedy) from None
