@@ -8,8 +8,11 @@
 """
 
 from offwind_pin.analysis.build import build
+from offwind_pin.analysis.condensation import Condensation, condense
 from offwind_pin.analysis.integrators import GeneralizedAlpha, SciPyIVP
 from offwind_pin.analysis.modal import ModalResult, modes
+from offwind_pin.analysis.pile import pile_only
+from offwind_pin.analysis.pushover import Pushover, pushover
 from offwind_pin.analysis.static import StaticResult, static
 from offwind_pin.analysis.transient import simulate
 from offwind_pin.campaign.export import export_urdf
@@ -24,6 +27,7 @@ from offwind_pin.turbines.reader import load_turbine, shipped_turbines
 
 __all__ = [
     "AdaptiveStep",
+    "Condensation",
     "FixedStep",
     "GeneralizedAlpha",
     "InputError",
@@ -32,6 +36,7 @@ __all__ = [
     "LoadHistory",
     "ModalResult",
     "OffwindError",
+    "Pushover",
     "SciPyIVP",
     "SolverError",
     "StaticResult",
@@ -40,9 +45,12 @@ __all__ = [
     "System",
     "Turbine",
     "build",
+    "condense",
     "export_urdf",
     "load_turbine",
     "modes",
+    "pile_only",
+    "pushover",
     "read_load_history",
     "shipped_turbines",
     "simulate",

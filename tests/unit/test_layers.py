@@ -104,6 +104,7 @@ def test_public_names() -> None:
     """The public surface changes on purpose only."""
     assert sorted(offwind_pin.__all__) == [
         "AdaptiveStep",
+        "Condensation",
         "FixedStep",
         "GeneralizedAlpha",
         "InputError",
@@ -112,6 +113,7 @@ def test_public_names() -> None:
         "LoadHistory",
         "ModalResult",
         "OffwindError",
+        "Pushover",
         "SciPyIVP",
         "SolverError",
         "StaticResult",
@@ -120,9 +122,12 @@ def test_public_names() -> None:
         "System",
         "Turbine",
         "build",
+        "condense",
         "export_urdf",
         "load_turbine",
         "modes",
+        "pile_only",
+        "pushover",
         "read_load_history",
         "shipped_turbines",
         "simulate",

@@ -1,0 +1,133 @@
+"""Condensation to the mudline: against statics, secant against load, refusals."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import offwind_pin as ow
+from offwind_pin.analysis.condensation import condense
+from offwind_pin.analysis.pile import pile_part
+
+LOAD = np.array([6e6, 2e6, 0, 0, 0, 3e6])
+
+
+@pytest.fixture(scope="module")
+def system(undamped: ow.Turbine) -> ow.System:
+    return ow.build(undamped, "distributed_springs", ow.StillWater())
+
+
+@pytest.fixture(scope="module")
+def loaded(system: ow.System) -> ow.StaticResult:
+    return ow.static(system, LOAD)
+
+
+def test_tangent_is_the_change_of_statics(system: ow.System, loaded: ow.StaticResult) -> None:
+    """Small changes of the mudline load move the head of the pile by the flexibility.
+
+    Static solutions of the pile alone, about the state it has under the whole structure.
+    """
+    tangent = condense(system, loaded)
+    pile = pile_part(system)
+    flexibility = np.linalg.inv(tangent.stiffness)
+    steps = np.array([1e3, 1e3, 1e3, 1e4, 1e4])
+    for i, step in enumerate(steps):
+        change = np.eye(6)[i] * step
+        ahead, behind = (ow.static(pile, tangent.load + s * change) for s in (1, -1))
+        moved = (ahead.mudline_displacement - behind.mudline_displacement) / (2 * step)
+        turned = (ahead.tower_top_rotation - behind.tower_top_rotation) / (2 * step)
+        assert moved == pytest.approx(flexibility[:3, i], rel=1e-4, abs=1e-15)
+        assert turned[:2] == pytest.approx(flexibility[3:5, i], rel=1e-3, abs=1e-15)
+
+
+def test_secant_takes_the_pile_to_the_state_in_one_step(
+    system: ow.System, loaded: ow.StaticResult
+) -> None:
+    """Secant stiffness times displacement is the load, but for weight times tilt; not so tangents."""
+    secant = condense(system, loaded, stiffness="secant")
+    reached = secant.stiffness @ secant.displacement
+    geometric = np.linalg.norm(secant.displacement[3:]) * abs(secant.load[2])
+    assert geometric < 0.02 * secant.load[0]
+    assert reached[:2] == pytest.approx(secant.load[:2], abs=geometric)
+    assert reached[2] == pytest.approx(secant.load[2], rel=0.02)
+    assert reached[3:5] == pytest.approx(secant.load[3:5], rel=2e-3)
+    tangent = condense(system, loaded)
+    lack = (tangent.stiffness @ tangent.displacement)[0] - tangent.load[0]
+    assert abs(lack) > 5 * geometric
+
+
+def test_both_agree_without_load(system: ow.System) -> None:
+    """A pile alone under its own weight: secants are tangents, and the matrix is symmetric."""
+    pile = pile_part(system)
+    state = ow.static(pile)
+    tangent, secant = condense(pile, state), condense(pile, state, stiffness="secant")
+    scale = np.sqrt(np.diag(tangent.stiffness))
+    difference = (secant.stiffness - tangent.stiffness) / np.outer(scale, scale)
+    assert np.max(np.abs(difference)) < 1e-9
+    assert tangent.symmetry_defect < 1e-9
+
+
+def test_tangent_softens_along_the_load_only(system: ow.System) -> None:
+    """Across the load the exact tangent of the springs is their secant."""
+    state = ow.static(system, np.array([8e6, 0, 0, 0, 0, 0]))
+    tangent, secant = condense(system, state), condense(system, state, stiffness="secant")
+    assert tangent.stiffness[0, 0] < 0.95 * secant.stiffness[0, 0]
+    assert tangent.stiffness[1, 1] == pytest.approx(secant.stiffness[1, 1], rel=1e-3)
+    assert secant.stiffness[0, 0] == pytest.approx(secant.stiffness[1, 1], rel=1e-3)
+
+
+def test_load_about_another_axis_turns_the_matrix(system: ow.System) -> None:
+    """The pile is round: turning its load about z by 90 degrees turns the 6x6.
+
+    But for torsion times tilt, which joints that follow one another about x, y and z share out.
+    """
+    pile = pile_part(system)
+    load = np.array([5e6, 1e6, -2e7, -3e7, 2e8, 0])
+    turn = np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]])
+    both = np.kron(np.eye(2), turn)
+    one = condense(pile, ow.static(pile, load)).stiffness
+    other = condense(pile, ow.static(pile, both @ load)).stiffness
+    scale = np.sqrt(np.diag(other))
+    assert np.max(np.abs(other - both @ one @ both.T) / np.outer(scale, scale)) < 1e-4
+
+
+def test_symmetry_defect_grows_with_the_moment(system: ow.System, loaded: ow.StaticResult) -> None:
+    """It is the moment over the rotational stiffness: small, and told."""
+    one = condense(system, loaded)
+    assert one.symmetry_defect == pytest.approx(
+        abs(one.load[4]) / np.sqrt(one.stiffness[3, 3] * one.stiffness[5, 5]), rel=0.1
+    )
+    assert np.array_equal(one.symmetric, one.symmetric.T)
+
+
+def test_coupled_springs_of_the_condensed_stiffness(
+    undamped: ow.Turbine, system: ow.System
+) -> None:
+    """On its own condensed 6x6 the structure keeps its first frequencies.
+
+    The pile's own mass below the mudline is left out, which second modes feel a little.
+    """
+    state = ow.static(system)
+    springs = condense(system, state).coupled_springs()
+    soil = undamped.soil.model_copy(update={"coupled_springs": springs})
+    condensed = undamped.model_copy(update={"soil": soil})
+    whole = ow.modes(system, n=4, about=state)
+    short = ow.modes(ow.build(condensed, "coupled_springs", ow.StillWater()), n=4)
+    assert short.label == whole.label
+    assert short.frequency_hz[:2] == pytest.approx(whole.frequency_hz[:2], rel=1e-3)
+    assert short.frequency_hz[2:] == pytest.approx(whole.frequency_hz[2:], rel=1e-2)
+
+
+def test_refusals(system: ow.System, loaded: ow.StaticResult, coupled_wet: ow.System) -> None:
+    with pytest.raises(ow.InputError, match="stiffness"):
+        condense(system, loaded, stiffness="initial")  # type: ignore[arg-type]
+    with pytest.raises(ow.InputError, match="degrees of freedom"):
+        condense(system, ow.static(coupled_wet))
+    with pytest.raises(ow.InputError, match="chain reaches the pile toe"):
+        condense(coupled_wet, ow.static(coupled_wet))
+    other = ow.static(ow.build(system.turbine, "distributed_springs", elements={"pile": 15}))
+    assert condense(system, other).load == pytest.approx(other.mudline_load)
+    stiff = system.turbine.materials["steel"].model_copy(update={"youngs_modulus": 100e9})
+    soft = system.turbine.model_copy(update={"materials": {"steel": stiff}})
+    with pytest.raises(ow.InputError, match="in balance"):
+        condense(ow.build(soft, "distributed_springs"), loaded)
