@@ -1,8 +1,12 @@
-"""p-y curves at the nodes of a pile: lateral soil resistance per length over displacement."""
+"""Laws of soil curves at the nodes of a pile: resistance over displacement.
+
+A lateral curve gives p in N/m over y in m; the same laws serve t over z and torque over twist.
+"""
 
 from __future__ import annotations
 
 import csv
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -16,8 +20,17 @@ _LARGEST_DISPLACEMENT = 10.0
 _COLUMNS = ("depth_m", "y_m", "p_n_per_m")
 
 
-LINEAR, TANH, TABLE = 0.0, 1.0, 2.0
-"""First number of a curve: which law the others belong to."""
+LINEAR, TANH, TABLE, POWER, CONIC = 0.0, 1.0, 2.0, 3.0, 4.0
+"""First number of a curve: which law the others belong to. Rows may be padded with zeros.
+
+LINEAR : modulus
+TANH : initial modulus, ultimate resistance
+TABLE : number of points, displacements, resistances
+POWER : ultimate resistance, where it is reached, exponent, where the line from the origin ends
+CONIC : ultimate resistance, where it is reached, ratio of initial slope to chord, curvature
+"""
+
+_POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 
 
 @kernel
@@ -33,8 +46,8 @@ def _tanh_curve(numbers: Array, y: float) -> tuple[float, float]:
 
 @kernel
 def _tabulated_curve(numbers: Array, y: float) -> tuple[float, float]:
-    count = (len(numbers) - 1) // 2
-    grid, load = numbers[1 : 1 + count], numbers[1 + count :]
+    count = int(numbers[1])
+    grid, load = numbers[2 : 2 + count], numbers[2 + count : 2 + 2 * count]
     upper = np.searchsorted(grid, y, side="right")
     if upper == count:
         return load[-1] / y, 0.0
@@ -44,16 +57,55 @@ def _tabulated_curve(numbers: Array, y: float) -> tuple[float, float]:
 
 
 @kernel
+def _power_curve(numbers: Array, y: float) -> tuple[float, float]:
+    ultimate, end, exponent, line = numbers[1], numbers[2], numbers[3], numbers[4]
+    if y >= end:
+        return ultimate / y, 0.0
+    at = max(y, line)
+    secant = ultimate * (at / end) ** exponent / at
+    return secant, (secant if y <= line else exponent * secant)
+
+
+@kernel
+def _conic_curve(numbers: Array, y: float) -> tuple[float, float]:
+    # -n (Y - X)^2 + (1 - n) (Y - K X) (Y - 1) = 0 in X = y / y_u and Y = p / p_u, solved for Y; the
+    # discriminant is a sum of terms that are not negative, so that no digits are lost
+    ultimate, end, stiffness, n = numbers[1], numbers[2], numbers[3], numbers[4]
+    if ultimate <= 0:
+        return 0.0, 0.0
+    x = y / end
+    line = stiffness * x
+    if x >= 1 or (n == 0 and line >= 1):
+        return ultimate / y, 0.0
+    chord, m = ultimate / end, 1 - n
+    if n == 0:
+        return stiffness * chord, stiffness * chord
+    root = np.sqrt((m * (1 - line)) ** 2 + 4 * m * n * (line - x) * (1 - x))
+    half = m * (1 + line) - 2 * n * x
+    if half >= 0:
+        secant = 2 * (m * stiffness - n * x) / (half + root)
+    else:
+        secant = (root - half) / (2 * (n - m) * x)
+    tangent = (2 * n * x * (secant - 1) + m * stiffness * (1 - secant * x)) / root
+    return secant * chord, tangent * chord
+
+
+@kernel
 def curve_at(numbers: Array, y: float) -> tuple[float, float]:
     """Secant stiffness p / y and tangent dp/dy in N/m2 at a displacement y >= 0 in m.
 
     numbers : one row of :attr:`SoilCurves.numbers`
     """
-    if numbers[0] == LINEAR:
+    law = numbers[0]
+    if law == LINEAR:
         return numbers[1], numbers[1]
-    if numbers[0] == TANH:
+    if law == TANH:
         return _tanh_curve(numbers, y)
-    return _tabulated_curve(numbers, y)
+    if law == TABLE:
+        return _tabulated_curve(numbers, y)
+    if law == POWER:
+        return _power_curve(numbers, y)
+    return _conic_curve(numbers, y)
 
 
 @kernel
@@ -69,8 +121,8 @@ def _tanh_energy(numbers: Array, y: float) -> float:
 
 @kernel
 def _tabulated_energy(numbers: Array, y: float) -> float:
-    count = (len(numbers) - 1) // 2
-    grid, load = numbers[1 : 1 + count], numbers[1 + count :]
+    count = int(numbers[1])
+    grid, load = numbers[2 : 2 + count], numbers[2 + count : 2 + 2 * count]
     energy = 0.0
     for i in range(1, count):
         top = min(y, grid[i])
@@ -83,13 +135,76 @@ def _tabulated_energy(numbers: Array, y: float) -> float:
 
 
 @kernel
+def _power_energy(numbers: Array, y: float) -> float:
+    ultimate, end, exponent, line = numbers[1], numbers[2], numbers[3], numbers[4]
+    if y <= line:
+        return _power_curve(numbers, y)[0] * y**2 / 2
+    whole = ultimate * end / (exponent + 1)
+    energy = ultimate * (line / end) ** exponent * line / 2
+    energy += whole * ((min(y, end) / end) ** (exponent + 1) - (line / end) ** (exponent + 1))
+    return energy + ultimate * max(y - end, 0.0)
+
+
+@kernel
+def _conic_panel(low: float, high: float, stiffness: float, n: float) -> float:
+    """Integral of X^2 over the secant t, with X = m (K - t) / (n (t - 1)^2 + m t (K - t))."""
+    m = 1 - n
+    total = 0.0
+    for i in range(len(_POINTS)):
+        t = 1 + low + (high - low) * (1 + _POINTS[i]) / 2
+        below = stiffness - t
+        total += _WEIGHTS[i] * (m * below / (n * (t - 1) ** 2 + m * t * below)) ** 2
+    return total * (high - low) / 2
+
+
+@kernel
+def _conic_energy(numbers: Array, y: float) -> float:
+    # A conic has a rational parameter, here the secant t = Y / X, which runs from K at rest to 1:
+    # integral of Y dX = t X^2 / 2 + integral of X^2 / 2 over t, both positive. Panels halve towards
+    # both ends, down to the distance of the nearest pole of the integrand.
+    ultimate, end, stiffness, n = numbers[1], numbers[2], numbers[3], numbers[4]
+    if ultimate <= 0:
+        return 0.0
+    if n == 0:
+        bend = end / stiffness
+        inner = min(y, bend)
+        return ultimate * (inner**2 / bend / 2 + max(y - bend, 0.0))
+    m, whole = 1 - n, stiffness - 1
+    x = min(y / end, 1.0)
+    t = _conic_curve(numbers, y)[0] * end / ultimate if x < 1 else 1.0
+    energy = t * x**2 / 2
+    start = t - 1
+    finest = min(1.0, np.sqrt(m * whole / n)) / 2
+    low, high = 0.0, whole / 2
+    while high > finest:
+        high /= 2
+    while high <= whole / 2:
+        if high > start:
+            energy += _conic_panel(max(low, start), high, stiffness, n) / 2
+        low, high = high, 2 * high
+    finest = n * whole**2 / (m * stiffness + 2 * n * whole) / 2
+    high = whole
+    while high - low > 0:
+        middle = high if high - low < finest else (low + high) / 2
+        if middle > start:
+            energy += _conic_panel(max(low, start), middle, stiffness, n) / 2
+        low = middle
+    return ultimate * end * energy + ultimate * max(y - end, 0.0)
+
+
+@kernel
 def curve_energy(numbers: Array, y: float) -> float:
     """Integral of p from 0 to y in J per m of pile."""
-    if numbers[0] == LINEAR:
+    law = numbers[0]
+    if law == LINEAR:
         return numbers[1] * y**2 / 2
-    if numbers[0] == TANH:
+    if law == TANH:
         return _tanh_energy(numbers, y)
-    return _tabulated_energy(numbers, y)
+    if law == TABLE:
+        return _tabulated_energy(numbers, y)
+    if law == POWER:
+        return _power_energy(numbers, y)
+    return _conic_energy(numbers, y)
 
 
 @kernel
@@ -104,7 +219,7 @@ def _curves_at(numbers: Array, y: Array) -> Array:
 class SoilCurves:
     """One curve for each of n nodes; y >= 0 is the size of the lateral displacement in m.
 
-    numbers : (n, c) law of each node's curve and its parameters
+    numbers : (n, c) law of each node's curve and its parameters, padded with zeros
     """
 
     numbers: Array
@@ -121,6 +236,33 @@ class SoilCurves:
         """dp/dy in N/m2, (n,)."""
         return _curves_at(self.numbers, y)[1]
 
+    @property
+    def ultimate(self) -> Array:
+        """Largest resistance in N/m, (n,); infinite where a curve has no end."""
+        return np.array([_ultimate(row) for row in self.numbers])
+
+
+def _ultimate(row: Array) -> float:
+    if row[0] == LINEAR:
+        return float("inf") if row[1] > 0 else 0.0
+    if row[0] == TABLE:
+        count = int(row[1])
+        return float(row[2 + count : 2 + 2 * count].max())
+    return float(row[2] if row[0] == TANH else row[1])
+
+
+def stack_curves(parts: Sequence[tuple[Array, SoilCurves]]) -> SoilCurves:
+    """Curves of different laws as one.
+
+    parts : for each the places (m,) of its m curves in the result, and the curves; the places of
+        all of them together are 0 to n - 1
+    """
+    width = max(curves.numbers.shape[1] for _, curves in parts)
+    numbers = np.zeros((sum(len(places) for places, _ in parts), width))
+    for places, curves in parts:
+        numbers[places, : curves.numbers.shape[1]] = curves.numbers
+    return SoilCurves(numbers)
+
 
 def linear_curves(modulus: Array) -> SoilCurves:
     """p = k y; modulus (n,) in N/m2."""
@@ -133,24 +275,86 @@ def tanh_curves(initial_modulus: Array, ultimate_resistance: Array) -> SoilCurve
     return SoilCurves(np.column_stack([law, initial_modulus, ultimate_resistance]))
 
 
-def tabulated_curves(path: Path, depth: Array) -> SoilCurves:
-    """Curves from a table with columns depth_m, y_m, p_n_per_m, interpolated to the depths.
+def point_curves(displacement: Array, resistance: Array) -> SoilCurves:
+    """Polygons through points (n, m), the first at the origin; constant past the last."""
+    n, count = displacement.shape
+    head = np.tile([TABLE, float(count)], (n, 1))
+    return SoilCurves(np.hstack([head, displacement, resistance]))
 
-    Between two tabulated depths p is interpolated linearly at equal y; above the first and below
-    the last depth the nearest curve holds. A curve that does not start at y = 0 is led to the
-    origin by a straight line; past its last point p stays constant.
+
+def power_curves(ultimate: Array, end: Array, exponent: float, line: Array) -> SoilCurves:
+    """p = p_u (y / y_u)^exponent up to y_u, and p_u beyond; a straight line up to y_0.
+
+    ultimate (p_u), end (y_u), line (y_0 <= y_u) : (n,); y_0 is positive
+    """
+    law = np.full_like(ultimate, POWER)
+    return SoilCurves(np.column_stack([law, ultimate, end, np.full_like(ultimate, exponent), line]))
+
+
+def conic_curves(
+    initial_modulus: Array, end: Array, ultimate: Array, curvature: Array
+) -> SoilCurves:
+    """Conics of PISA: initial modulus k, ultimate resistance p_u from y_u on, curvature n.
+
+    All (n,). A curvature of zero gives two straight lines. Where p_u is zero there is nothing.
 
     Raises
     ------
-    InputError : a table that cannot be read
+    InputError : k below p_u / y_u, or a curvature outside [0, 1), of which no such conic exists
     """
-    curves = _read_table(path)
+    firm = ultimate > 0
+    ratio = np.divide(initial_modulus * end, ultimate, out=np.ones_like(end), where=firm)
+    allowed = "an initial stiffness of at least the ultimate resistance over its displacement"
+    if np.any(ratio < 1 - 1e-12):
+        raise InputError("conic curve", float(ratio.min()), allowed, "Check the parameters.")
+    if np.any((curvature < 0) | (curvature >= 1)):
+        raise InputError("conic curve", curvature.tolist(), "curvature in [0, 1)", "Check it.")
+    straight = ratio <= 1 + 1e-12
+    law = np.full_like(ultimate, CONIC)
+    curvature = np.where(straight, 0.0, curvature)
+    return SoilCurves(np.column_stack([law, ultimate, end, np.maximum(ratio, 1.0), curvature]))
+
+
+def tabulated_curves(
+    path: Path,
+    depth: Array,
+    boundaries: tuple[float, ...] = (),
+    columns: tuple[str, str, str] = _COLUMNS,
+) -> SoilCurves:
+    """Curves from a table of depth, displacement and resistance, interpolated to the depths.
+
+    Between two tabulated depths p is interpolated linearly at equal y, but not across a boundary of
+    layers: there, as above the first and below the last depth, the nearest curve of the layer
+    holds. A depth exactly on a boundary belongs to the layer below. A curve that does not start at
+    y = 0 is led to the origin by a straight line; past its last point p stays constant.
+
+    boundaries : depths in m, rising
+    columns : names of the three columns
+
+    Raises
+    ------
+    InputError : a table that cannot be read, or that has no curve in a layer
+    """
+    curves = _read_table(path, columns)
     grid = np.unique(np.concatenate([[0.0], *(y for y, _ in curves.values())]))
     depths = np.array(sorted(curves))
     loads = np.array([np.interp(grid, *curves[d]) for d in depths])
-    at_nodes = np.array([np.interp(depth, depths, column) for column in loads.T]).T
-    law = np.full((len(depth), 1), TABLE)
-    return SoilCurves(np.hstack([law, np.tile(grid, (len(depth), 1)), at_nodes]))
+    tabulated_layer = np.searchsorted(boundaries, depths, side="right")
+    layer = np.searchsorted(boundaries, depth, side="right")
+    at_nodes = np.empty((len(depth), len(grid)))
+    for i in range(len(boundaries) + 1):
+        rows, nodes = tabulated_layer == i, layer == i
+        if not rows.any():
+            edges = [0.0, *boundaries, np.inf]
+            raise InputError(
+                str(path),
+                f"no curve from {edges[i]} m to {edges[i + 1]} m",
+                "one curve or more in each layer that boundaries_m make",
+                "Add one, or leave the boundary out.",
+            )
+        for j, column in enumerate(loads[rows].T):
+            at_nodes[nodes, j] = np.interp(depth[nodes], depths[rows], column)
+    return point_curves(np.tile(grid, (len(depth), 1)), at_nodes)
 
 
 def soil_curves(curve: LinearModulus | TanhCurve | CurveTable, depth: Array) -> SoilCurves:
@@ -164,13 +368,13 @@ def soil_curves(curve: LinearModulus | TanhCurve | CurveTable, depth: Array) -> 
         return linear_curves(curve.modulus.at(depth))
     if isinstance(curve, TanhCurve):
         return tanh_curves(curve.initial_modulus.at(depth), curve.ultimate_resistance.at(depth))
-    return tabulated_curves(curve.file, depth)
+    return tabulated_curves(curve.file, depth, curve.boundaries)
 
 
-def _read_table(path: Path) -> dict[float, tuple[Array, Array]]:
+def _read_table(path: Path, columns: tuple[str, ...]) -> dict[float, tuple[Array, Array]]:
     """(y, p) by depth, both from the origin; every fault of the file told with its line."""
     by_depth: dict[float, list[tuple[float, float]]] = {}
-    for line, (depth, y, p) in read_numbers(path, _COLUMNS):
+    for line, (depth, y, p) in read_numbers(path, columns):
         where = f"{path}, line {line}"
         if min(depth, y, p) < 0:
             raise InputError(
@@ -188,7 +392,7 @@ def _read_table(path: Path) -> dict[float, tuple[Array, Array]]:
                 where,
                 y,
                 f"y rising strictly within a depth (the last was {points[-1][0]})",
-                "Sort the rows of each depth by y_m.",
+                f"Sort the rows of each depth by {columns[1]}.",
             )
         if y == 0 and p != 0:
             raise InputError(where, p, "p = 0 at y = 0", "Curves start at the origin.")

@@ -7,43 +7,30 @@ A file carries units in its keys (``diameter_m``); in Python the same quantity i
 from __future__ import annotations
 
 import itertools
-from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 import numpy as np
-from numpy.typing import NDArray
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
+from pydantic import Field, model_validator
 
-Array = NDArray[np.float64]
+from offwind_pin.turbines.base import Array as Array
+from offwind_pin.turbines.base import Definition as Definition
+from offwind_pin.turbines.base import NonNegative as NonNegative
+from offwind_pin.turbines.base import Number as Number
+from offwind_pin.turbines.base import Positive as Positive
+from offwind_pin.turbines.base import Vector3
+from offwind_pin.turbines.depth_profile import DepthLine as DepthLine
+from offwind_pin.turbines.soil import CurveTable as CurveTable
+from offwind_pin.turbines.soil import DistributedSprings as DistributedSprings
+from offwind_pin.turbines.soil import LinearModulus as LinearModulus
+from offwind_pin.turbines.soil import Soil as Soil
+from offwind_pin.turbines.soil import SoilDashpot as SoilDashpot
+from offwind_pin.turbines.soil import TanhCurve as TanhCurve
 
-
-def _reject_bool(value: Any) -> Any:
-    if isinstance(value, bool):
-        raise ValueError("a number is needed, not true or false")
-    return value
-
-
-Number = Annotated[float, BeforeValidator(_reject_bool), Field(allow_inf_nan=False)]
-Positive = Annotated[Number, Field(gt=0)]
-NonNegative = Annotated[Number, Field(ge=0)]
 Height = Annotated[Number, Field(ge=-1000, le=1000)]
 Angle = Annotated[Number, Field(ge=-30, le=30)]
-Vector3 = tuple[Number, Number, Number]
-Vector6 = tuple[Number, Number, Number, Number, Number, Number]
-
 
 _KEPT_NAMES = {"base", "mono", "pile", "rna", "root", "world"}
 """Names that the chain gives to parts of its own."""
-
-
-class Definition(BaseModel):
-    """Base of every definition: frozen, unknown keys rejected, file keys carry units."""
-
-    model_config = ConfigDict(
-        frozen=True, extra="forbid", validate_by_name=True, validate_by_alias=True
-    )
-
-    source: str | None = Field(default=None, description="where the numbers come from")
 
 
 class Material(Definition):
@@ -203,17 +190,32 @@ class RotorNacelleRNA(Definition):
 
 
 class Site(Definition):
-    """Water and gravity. The mudline lies at z = -water_depth."""
+    """Water, mudline and gravity.
+
+    The original mudline lies at z = -water_depth, the actual one deeper by the scour depth (higher,
+    where it is negative: deposition).
+    """
 
     water_depth: Annotated[Positive, Field(le=500)] = Field(alias="water_depth_m")
+    scour_depth: Annotated[Number, Field(ge=-20, le=50)] = Field(alias="scour_depth_m", default=0.0)
     water_density: Annotated[Positive, Field(ge=900, le=1200)] = Field(
         alias="water_density_kg_per_m3"
     )
     gravity: Annotated[Positive, Field(ge=1, le=30)] = Field(alias="gravity_m_per_s2")
 
+    @model_validator(mode="after")
+    def _mudline_under_water(self) -> Site:
+        if self.mudline >= 0:
+            raise ValueError(
+                f"a scour_depth_m of {self.scour_depth} lifts the mudline to z = {self.mudline} m, "
+                "out of the water; a negative scour depth is deposition"
+            )
+        return self
+
     @property
     def mudline(self) -> float:
-        return -self.water_depth
+        """Height of the actual mudline in m."""
+        return -(self.water_depth + self.scour_depth)
 
 
 class Hydrodynamics(Definition):
@@ -221,95 +223,6 @@ class Hydrodynamics(Definition):
 
     added_mass_coefficient: Annotated[NonNegative, Field(le=10)]
     drag_coefficient: Annotated[NonNegative, Field(le=10)]
-
-
-class CoupledSprings(Definition):
-    """6x6 stiffness of pile and soil at the mudline, order x, y, z, rx, ry, rz (N, m, rad)."""
-
-    stiffness: tuple[Vector6, Vector6, Vector6, Vector6, Vector6, Vector6]
-
-    @model_validator(mode="after")
-    def _positive_definite(self) -> CoupledSprings:
-        matrix = np.array(self.stiffness)
-        if not np.allclose(matrix, matrix.T, rtol=1e-9, atol=1e-9 * np.abs(matrix).max()):
-            raise ValueError("the 6x6 stiffness is not symmetric; give the same value at ij and ji")
-        if np.linalg.eigvalsh(matrix)[0] <= 0:
-            raise ValueError(
-                "the 6x6 stiffness is not positive definite, so that a motion is unresisted; "
-                "check the signs of the coupling terms (x-ry negative, y-rx positive)"
-            )
-        return self
-
-
-class DepthLine(Definition):
-    """Quantity that grows linearly with depth below the mudline: at_mudline + gradient * depth."""
-
-    at_mudline: NonNegative = 0.0
-    gradient: NonNegative = 0.0
-
-    @model_validator(mode="after")
-    def _not_zero(self) -> DepthLine:
-        if self.at_mudline == 0 and self.gradient == 0:
-            raise ValueError("at_mudline and gradient are both zero; one of them must be positive")
-        return self
-
-    def at(self, depth: Array) -> Array:
-        """Value at depths below the mudline in m."""
-        return self.at_mudline + self.gradient * depth
-
-
-class LinearModulus(Definition):
-    """p = k y, with the modulus k in N/m per m of pile."""
-
-    kind: Literal["linear"]
-    modulus: DepthLine = Field(alias="modulus_n_per_m2")
-
-
-class TanhCurve(Definition):
-    """p = p_u tanh(k y / p_u), initial modulus k in N/m2, ultimate resistance p_u in N/m."""
-
-    kind: Literal["tanh"]
-    initial_modulus: DepthLine = Field(alias="initial_modulus_n_per_m2")
-    ultimate_resistance: DepthLine = Field(alias="ultimate_resistance_n_per_m")
-
-
-class CurveTable(Definition):
-    """p-y curves by depth from a CSV file with columns ``depth_m, y_m, p_n_per_m``."""
-
-    kind: Literal["table"]
-    file: Path
-
-
-class SoilDashpot(Definition):
-    """Dashpot beside each spring: C_s = K_s damping_factor / (pi load_frequency).
-
-    K_s is the secant stiffness at the spring's displacement, or the initial one, which makes the
-    dashpot constant.
-    """
-
-    stiffness: Literal["secant", "initial"] = "secant"
-    damping_factor: Annotated[NonNegative, Field(le=2)]
-    load_frequency: Annotated[Positive, Field(le=100)] = Field(alias="load_frequency_hz")
-
-
-class DistributedSprings(Definition):
-    """Uncoupled lateral p-y springs along the pile, vertical and torsional springs at the toe."""
-
-    nodes: Annotated[int, Field(ge=2, le=2000)]
-    curve: Annotated[LinearModulus | TanhCurve | CurveTable, Field(discriminator="kind")]
-    toe_vertical_stiffness: Positive = Field(alias="toe_vertical_stiffness_n_per_m")
-    toe_torsional_stiffness: Positive = Field(alias="toe_torsional_stiffness_nm_per_rad")
-    dashpot: SoilDashpot | None = None
-    surrogate: str | None = Field(
-        default=None, description="why these curves stand in for the real ones; shown everywhere"
-    )
-
-
-class Soil(Definition):
-    """Descriptions of the same ground, one for each foundation that needs one."""
-
-    coupled_springs: CoupledSprings | None = None
-    distributed_springs: DistributedSprings | None = None
 
 
 class DampingCalibration(Definition):
@@ -358,8 +271,9 @@ class Turbine(Definition):
                 )
         if self.site.mudline < self.toe:
             raise ValueError(
-                f"the mudline (z = {self.site.mudline} m, from water_depth_m) lies below the pile "
-                f"toe (z = {self.toe} m); lower the toe or reduce the water depth"
+                f"the mudline (z = {self.site.mudline} m, from water_depth_m and "
+                f"scour_depth_m) lies below the pile toe (z = {self.toe} m); "
+                "lower the toe or reduce the water depth"
             )
         if self.site.mudline >= self.yaw_bearing:
             raise ValueError(
