@@ -82,7 +82,7 @@ def test_balance_is_of_second_order(runs: list[xr.Dataset]) -> None:
     ("channel", "part"),
     [
         ("energy_dissipated", "joint_dampers"),
-        ("energy_dissipated", "foundation_dashpots"),
+        ("energy_dissipated", "foundation"),
         ("energy_dissipated", "waves"),
         ("energy_dissipated", "soil"),
         ("energy_worked", "waves"),

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 import offwind_pin as ow
+from offwind_pin.loads.dashpots import NO_DASHPOT, Dashpot
 from offwind_pin.loads.points import PointMotion
-from offwind_pin.loads.soil import SoilSprings, dashpot_time
+from offwind_pin.loads.soil import LATERAL, SoilSprings
 from offwind_pin.loads.soil_curves import SoilCurves, linear_curves, tanh_curves
 from offwind_pin.turbines.definition import SoilDashpot
 
@@ -24,9 +25,9 @@ def dissipated(
     The rule is exact to rounding for the smooth periodic integrands here. What the springs work over
     a cycle is nothing, so that the work done equals the heat that the load says it makes.
     """
-    soil = SoilSprings(
-        np.array([-40.0]), np.array([LENGTH]), curves, dashpot_time(DASHPOT), initial
-    )
+    definition = DASHPOT.model_copy(update={"stiffness": "initial" if initial else "secant"})
+    dashpot = Dashpot.of(definition)
+    soil = SoilSprings("soil", LATERAL, np.array([-40.0]), np.array([LENGTH]), curves, dashpot)
     omega, work, heat, count = 2 * np.pi * frequency, 0.0, 0.0, 400
     for phase in 2 * np.pi * np.arange(count) / count:
         u = np.array([[x * np.cos(phase), y * np.sin(phase), 0.0]])
@@ -63,22 +64,20 @@ def test_initial_dashpot_does_not_soften() -> None:
     assert energy > 1.1 * dissipated(curves, 0.02, 0.02, FREQUENCY)
 
 
-@pytest.mark.parametrize(("kind", "initial"), [("secant", False), ("initial", True)])
+@pytest.mark.parametrize("kind", ["secant", "initial"])
 def test_kind_of_dashpot_is_read_from_the_turbine(
-    oc6: ow.Turbine, kind: Literal["secant", "initial"], *, initial: bool
+    oc6: ow.Turbine, kind: Literal["secant", "initial"]
 ) -> None:
     """The field ``stiffness`` of the turbine's dashpot chooses the law; the secant is the default."""
     springs = oc6.soil.distributed_springs
     assert springs is not None
     assert springs.dashpot is not None
     assert springs.dashpot.stiffness == "secant"
-    dashpot = springs.dashpot.model_copy(update={"stiffness": kind})
-    springs = springs.model_copy(update={"dashpot": dashpot})
-    soil = SoilSprings.along_pile(springs, oc6.site.mudline, oc6.toe)
-    assert soil.initial_dashpot is initial
-    assert soil.dashpot_time == pytest.approx(
-        dashpot.damping_factor / (np.pi * dashpot.load_frequency), rel=1e-15
-    )
+    definition = springs.dashpot.model_copy(update={"stiffness": kind})
+    dashpot = Dashpot.of(definition)
+    time = springs.dashpot.damping_factor / (np.pi * springs.dashpot.load_frequency)
+    found = (dashpot.secant_time[0], dashpot.initial_time)
+    assert found == pytest.approx((time, 0.0) if kind == "secant" else (0.0, time), rel=1e-15)
 
 
 def test_dissipation_is_viscous() -> None:
@@ -90,4 +89,12 @@ def test_dissipation_is_viscous() -> None:
 
 def test_no_dashpot_takes_nothing() -> None:
     """Without a dashpot the springs are elastic."""
-    assert dashpot_time(None) == 0.0
+    assert Dashpot.of(None) is NO_DASHPOT
+    soil = SoilSprings(
+        "soil", LATERAL, np.zeros(1), np.ones(1), linear_curves(MODULUS), NO_DASHPOT
+    )
+    u, v = np.array([[0.02, 0.0, 0.0]]), np.array([[0.3, 0.1, 0.0]])
+    still = soil.forces(0.0, PointMotion(u, u, 0 * v, np.array([[0.0, 0.0, 1.0]])), 1.0)
+    moving = soil.forces(0.0, PointMotion(u, u, v, np.array([[0.0, 0.0, 1.0]])), 1.0)
+    assert np.array_equal(moving.force, still.force)
+    assert moving.dissipation == 0

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 import offwind_pin as ow
+from offwind_pin.dynamics.foundations import distributed_springs
 from offwind_pin.loads.points import PointMotion
 from offwind_pin.loads.soil import SoilSprings
 from offwind_pin.turbines.definition import Array
@@ -15,7 +16,9 @@ from offwind_pin.turbines.definition import Array
 @pytest.fixture(scope="session")
 def soil(oc6: ow.Turbine) -> SoilSprings:
     """The shipped surrogate."""
-    return SoilSprings.along_pile(oc6.soil.distributed_springs, oc6.site.mudline, oc6.toe)
+    load = distributed_springs(oc6).soil[0]
+    assert isinstance(load, SoilSprings)
+    return load
 
 
 def motion(soil: SoilSprings, displacement: Array, velocity: Array) -> PointMotion:

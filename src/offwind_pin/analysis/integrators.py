@@ -23,12 +23,14 @@ _log = logging.getLogger(__name__)
 class MotionState(NamedTuple):
     """Where an integration stands; with the system and the settings it determines all that follows.
 
-    time in s; vectors (6, nv): q, v, acceleration, and what the integrator needs besides; energy,
-    power (2, L + 2) of the recorder; steps : number of steps of the next interval
+    time in s; vectors (6, nv): q, v, acceleration, and what the integrator needs besides; memory
+    (m,) of soil and foundation; energy, power (2, L + 2) of the recorder; steps : number of steps
+    of the next interval
     """
 
     time: float
     vectors: Array
+    memory: Array
     energy: Array
     power: Array
     steps: int
@@ -62,7 +64,10 @@ class Integrator(Protocol):
     """Takes a system from one instant to the next ones."""
 
     def begin(self, chain: CompiledChain, q: Array, interval: float) -> MotionState:
-        """State at time 0, at rest at joint displacements q; interval between outputs in s."""
+        """State at time 0, at rest at joint displacements q; interval between outputs in s.
+
+        What soil and foundation keep of their past is the chain's.
+        """
 
     def cross(
         self, chain: CompiledChain, sections: Sections, state: MotionState, times: Array
@@ -170,6 +175,7 @@ class GeneralizedAlpha:
         recorder = _resumed_recorder(chain, sections, state, state.steps, len(times))
         vectors, last = state.vectors.copy(), np.zeros(state.vectors.shape[1])
         rows = chain.rows(instants)
+        chain.memory = state.memory
         try:
             with chain.running():
                 done, reason, error = compiled_advance(
@@ -181,7 +187,8 @@ class GeneralizedAlpha:
         if reason != CONVERGED:
             number = self._number(instants[done], interval)
             return StepFailed(REASONS[reason], float(instants[done]), last, number)
-        after = MotionState(float(times[-1]), vectors, recorder.energy, recorder.power, state.steps)
+        sums = (recorder.energy, recorder.power)
+        after = MotionState(float(times[-1]), vectors, chain.memory, *sums, state.steps)
         return _Crossed(after, _channels(recorder, step), float(error))
 
     def _number(self, time: float, interval: float) -> int:
@@ -216,6 +223,13 @@ class SciPyIVP:
     absolute_tolerance: float = 1e-10
 
     def begin(self, chain: CompiledChain, q: Array, interval: float) -> MotionState:
+        if len(chain.memory):
+            raise InputError(
+                "integrator",
+                f"SciPy's {self.method}",
+                "generalised-alpha, for soil or a foundation with a memory",
+                "Leave the integrator out, or choose elastic springs.",
+            )
         rest = np.zeros_like(q)
         a = chain.equations().acceleration(0.0, q, rest)
         return _at_start(chain, np.array([q, rest, a, a, a, a]), 1)
@@ -257,7 +271,8 @@ class SciPyIVP:
             a = equations.acceleration(time, q, v)
             chain.note(recorder, chain.rows(np.array([time]))[0], q, v, a, load_scale(chain.system))
             vectors = np.array([q, v, a, a, a, a])
-        after = MotionState(float(times[-1]), vectors, recorder.energy, recorder.power, 1)
+        sums = (recorder.energy, recorder.power)
+        after = MotionState(float(times[-1]), vectors, state.memory, *sums, 1)
         return after, _channels(recorder, np.nan)
 
     def describe(self) -> dict[str, Any]:
@@ -285,7 +300,7 @@ def _joined(pieces: list[Records]) -> Records:
 
 def _at_start(chain: CompiledChain, vectors: Array, steps: int) -> MotionState:
     sums = np.zeros((2, len(chain.loads) + 2))
-    return MotionState(0.0, vectors, sums, sums, steps)
+    return MotionState(0.0, vectors, chain.memory, sums, sums, steps)
 
 
 def _resumed_recorder(

@@ -95,7 +95,7 @@ def modes(system: System, n: int = 8, about: StaticResult | None = None) -> Moda
         allowed = f"a static state of this system, with {system.nv} degrees of freedom"
         raise InputError("about", f"one with {len(state.q)}", allowed, "Solve statics anew.")
     rest = np.zeros(system.nv)
-    equations = system.equations(state.loads, ramp_time=np.inf)
+    equations = system.equations(state.loads, np.inf, state.memory)
     stiffness, damping = equations.tangents(0.0, state.q, rest)
     # One mode more than asked for, so that no pair of equal frequency is cut in two.
     found = natural_modes(stiffness, equations.mass(state.q), min(n + 1, system.nv))

@@ -9,7 +9,7 @@ import numpy as np
 
 from offwind_pin.dynamics.compiled_chain import CompiledChain
 from offwind_pin.dynamics.system import System
-from offwind_pin.errors import SolverError
+from offwind_pin.errors import InputError, SolverError
 from offwind_pin.loads.points import PointLoad
 from offwind_pin.loads.tower_top import constant_load
 from offwind_pin.solve.newton import newton
@@ -32,6 +32,8 @@ class StaticResult:
     section_load : (m, 6) force (N) and moment (N m) that the part above exerts on the part below
     iterations : Newton steps
     residual : largest entry of the residual over the load scale
+    memory : (k,) what soil and foundation keep of their past once this load has acted
+    loads : that act
     """
 
     q: Array
@@ -42,6 +44,7 @@ class StaticResult:
     iterations: int
     residual: float
     mudline: float
+    memory: Array = field(repr=False)
     loads: tuple[PointLoad, ...] = field(repr=False)
 
     @property
@@ -74,15 +77,18 @@ def static(
     tower_top_load: Array | None = None,
     *,
     loads: Sequence[PointLoad] = (),
+    after: StaticResult | None = None,
 ) -> StaticResult:
     """Static equilibrium by Newton's method with the exact tangent.
 
-    Waves do not act; soil, gravity and the means of the given loads do.
+    Waves do not act; soil, gravity and the means of the given loads do. Soil or a foundation with a
+    memory is loaded for the first time, in one go.
 
     Parameters
     ----------
     tower_top_load : (6,) Fx, Fy, Fz, Mx, My, Mz at the yaw bearing in N and N m, inertial frame
     loads : further point loads
+    after : state of the same system whose load acted before, which soil with a memory remembers
 
     Raises
     ------
@@ -96,6 +102,11 @@ def static(
     row = chain.rows(np.zeros(1))[0]
     rest = np.zeros(system.nv)
     scale = load_scale(system)
+    if after is not None:
+        if after.q.shape != rest.shape or after.memory.shape != chain.memory.shape:
+            allowed = "a state of the same system under loads of the same kinds"
+            raise InputError("after", "another system's", allowed, "Solve that state anew.")
+        chain.memory = after.memory
 
     def correction(q: Array, residual: Array) -> Array:
         chain.factorise(row, q, rest, rest, 0.0, 0.0)
@@ -104,7 +115,7 @@ def static(
     result = newton(
         lambda q: chain.residual(row, q, rest, rest),
         correction,
-        rest,
+        rest if after is None else after.q,
         scale=scale,
         relative_tolerance=RELATIVE_TOLERANCE,
     )
@@ -125,6 +136,7 @@ def static(
             joint=joint,
             residual=float(np.max(np.abs(result.residual))),
         )
+    chain.commit(result.x)
     state = chain.record(chain.sections(system.chain.boundary), row, result.x, rest, rest)
     return StaticResult(
         q=result.x,
@@ -135,6 +147,7 @@ def static(
         iterations=result.iterations,
         residual=float(np.max(np.abs(result.residual))) / scale,
         mudline=system.turbine.site.mudline,
+        memory=chain.memory,
         loads=tuple(acting),
     )
 

@@ -110,6 +110,7 @@ def simulate(
     parts = _segments(system, segments)
     sections = chain.sections(_recorded_heights(system, heights, parts), parts)
     start = static(system, loads=acting)
+    chain.memory = start.memory
     state = method.begin(chain, start.q, interval)
     attributes = _provenance(system, acting, ramp, interval, method) | (provenance or {})
     run = {
@@ -229,6 +230,7 @@ def _state(block: Block) -> MotionState:
     return MotionState(
         time=float(values["time"]),
         vectors=values["vectors"],
+        memory=values["memory"],
         energy=values["energy"],
         power=values["power"],
         steps=int(values["steps"]),

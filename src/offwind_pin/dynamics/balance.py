@@ -49,7 +49,22 @@ def evaluate_loads(s: ChainArrays, row: Array) -> None:
     for i in range(s.loads):
         points = slice(s.first_point[i], s.first_point[i + 1])
         numbers = row[s.first_number[i] : s.first_number[i + 1]]
-        s.lost[i] = s.forces[i](s.motion[points], s.constants[i], numbers, s.force[points])
+        past = s.memory[s.first_memory[i] : s.first_memory[i + 1]]
+        s.lost[i] = s.forces[i](s.motion[points], s.constants[i], numbers, past, s.force[points])
+
+
+@kernel
+def commit(s: ChainArrays, q: Array) -> None:
+    """End a step: what loads and root keep of their past becomes that of the state evaluated."""
+    if len(s.memory) == 0:
+        return
+    for i in range(s.loads):
+        points = slice(s.first_point[i], s.first_point[i + 1])
+        past = s.memory[s.first_memory[i] : s.first_memory[i + 1]]
+        s.heat[i] = s.commits[i](s.motion[points], s.constants[i], past)
+    if s.roots > 0:
+        past = s.memory[s.first_memory[s.loads] :]
+        s.heat[s.loads] = s.restraint_commit[0](q[:6], s.restraint_numbers, past)
 
 
 @kernel
@@ -152,8 +167,8 @@ def to_body(turn: Array, vector: Vector) -> Vector:
 def add_root(s: ChainArrays, q: Array, v: Array) -> None:
     """Add the restraint's reaction to the root's residual."""
     reaction, stiffness, damping = s.root_reaction, s.root_stiffness, s.root_damping
-    numbers = s.restraint_numbers
-    lost, stored = s.restraint[0](q[:6], v[:6], numbers, reaction, stiffness, damping)
+    numbers, past = s.restraint_numbers, s.memory[s.first_memory[s.loads] :]
+    lost, stored = s.restraint[0](q[:6], v[:6], numbers, past, reaction, stiffness, damping)
     s.root_power[0], s.root_power[1] = lost, stored
     for i in range(6):
         s.residual[i] += reaction[i]

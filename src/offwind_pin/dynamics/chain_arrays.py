@@ -8,12 +8,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from offwind_pin.compiled import compiled_list
-from offwind_pin.dynamics.restraints import root_kernel
+from offwind_pin.dynamics.restraints import KernelRestraint
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.points import (
     KernelLoad,
     force_kernel,
     no_tangents,
+    nothing_kept,
     nothing_stored,
 )
 from offwind_pin.structure.chain import NDArrayInt
@@ -41,7 +42,8 @@ class ChainArrays(NamedTuple):
     gravity: float
     stiffness: Array  # (nv,) of the joint springs
     damping: Array  # (nv,) of the joint dampers
-    restraint: Any  # list of one exchangeable kernel: the root's reaction
+    restraint: Any  # lists of one exchangeable kernel each: the root's reaction, and end of a step
+    restraint_commit: Any
     restraint_numbers: Array  # its constants
     point_body: NDArrayInt  # (P,) body that carries each loaded point
     point_offset: Array  # (P,) along it in m
@@ -52,7 +54,11 @@ class ChainArrays(NamedTuple):
     forces: Any  # lists of the loads' exchangeable kernels, and of their constants; not empty
     tangents: Any
     energies: Any
+    commits: Any
     constants: Any
+    first_memory: NDArrayInt  # (L + 2,) where the memory of each load, and of the root, begins
+    # The past, as of the last step: with the state it determines all that follows
+    memory: Array  # (M,) of the loads and of the root
     # What was last computed
     origin: Array  # (N + 1, 3) place of each body's frame in m
     rotation: Array  # (N + 1, 3, 3) orientation of each body
@@ -61,9 +67,10 @@ class ChainArrays(NamedTuple):
     acceleration: Array  # (N + 1, 3) of the frame's origin in m/s2
     spin_rate: Array  # (N + 1, 3) in rad/s2
     joint: Array  # (nv, 6) spatial velocity per unit velocity of each joint
-    motion: Array  # (P, 15) motion of the loaded points
+    motion: Array  # (P, 21) motion of the loaded points
     force: Array  # (P, 6) forces and moments there
     lost: Array  # (L,) power that each load dissipates in W
+    heat: Array  # (L + 1,) energy in J that each load and the root made heat by ending the step
     wrench: Array  # (N + 1, 6) on each body and all above: loads less inertia and weight
     root_reaction: Array  # (6,) of the restraint
     root_stiffness: Array  # (6, 6)
@@ -71,7 +78,7 @@ class ChainArrays(NamedTuple):
     root_power: Array  # (2,) power that the restraint dissipates in W, energy it stores in J
     residual: Array  # (nv,)
     # The iteration matrix, factorised
-    blocks: Array  # (P, 4, 3, 3) derivatives of the forces
+    blocks: Array  # (P, 7, 3, 3) derivatives of the forces and moments
     articulated: Array  # (N + 1, 6, 6) matrix of each body, then of all above it as well
     joint_then: Array  # (nv, 6) the joints' columns when it was made
     carry: Array  # (nv, 6) wrench that a joint passes down per unit of its right side
@@ -82,21 +89,22 @@ class ChainArrays(NamedTuple):
 
 
 @force_kernel
-def _no_force(motion: Array, constants: Array, row: Array, force: Array) -> float:
+def _no_force(motion: Array, constants: Array, row: Array, memory: Array, force: Array) -> float:
     """Of no load."""
     return 0.0
 
 
-def chain_arrays(system: System, loads: Sequence[KernelLoad]) -> ChainArrays:
-    """Arrays of a system under loads."""
+def chain_arrays(
+    system: System, loads: Sequence[KernelLoad], root: KernelRestraint
+) -> ChainArrays:
+    """Arrays of a system under loads, its root held by a restraint if it has joints."""
     chain = system.chain
     n, nv = chain.elements, system.nv
     height = np.concatenate([np.zeros(0), *(load.height for load in loads)])
     carrier = chain.body_at(height)
     origin = chain.origin
     widths = [load.rows(np.zeros(1), np.zeros(1)).shape[1] for load in loads]
-    root = system.foundation.root
-    reaction, numbers = root_kernel(root)
+    sizes = [*(load.memory_size for load in loads), root.memory_size]
     return ChainArrays(
         base=chain.base,
         roots=chain.roots,
@@ -115,8 +123,9 @@ def chain_arrays(system: System, loads: Sequence[KernelLoad]) -> ChainArrays:
         gravity=float(system.turbine.site.gravity),
         stiffness=system.joint_stiffness,
         damping=system.joint_damping,
-        restraint=compiled_list([reaction]),
-        restraint_numbers=numbers,
+        restraint=compiled_list([root.reaction_kernel]),
+        restraint_commit=compiled_list([root.commit_kernel]),
+        restraint_numbers=root.numbers,
         point_body=carrier,
         point_offset=height - origin[carrier],
         point_height=height,
@@ -126,10 +135,13 @@ def chain_arrays(system: System, loads: Sequence[KernelLoad]) -> ChainArrays:
         forces=compiled_list([load.force_kernel for load in loads] or [_no_force]),
         tangents=compiled_list([load.tangent_kernel for load in loads] or [no_tangents]),
         energies=compiled_list([load.energy_kernel for load in loads] or [nothing_stored]),
+        commits=compiled_list([load.commit_kernel for load in loads] or [nothing_kept]),
         constants=compiled_list(
             [np.ascontiguousarray(load.constants, dtype=float) for load in loads]
             or [np.zeros((0, 0))]
         ),
+        first_memory=np.cumsum([0, *sizes], dtype=np.intp),
+        memory=np.zeros(sum(sizes)),
         origin=np.zeros((n + 1, 3)),
         rotation=np.zeros((n + 1, 3, 3)),
         velocity=np.zeros((n + 1, 3)),
@@ -137,16 +149,17 @@ def chain_arrays(system: System, loads: Sequence[KernelLoad]) -> ChainArrays:
         acceleration=np.zeros((n + 1, 3)),
         spin_rate=np.zeros((n + 1, 3)),
         joint=np.zeros((nv, 6)),
-        motion=np.zeros((len(height), 15)),
+        motion=np.zeros((len(height), 21)),
         force=np.zeros((len(height), 6)),
         lost=np.zeros(len(loads)),
+        heat=np.zeros(len(loads) + 1),
         wrench=np.zeros((n + 1, 6)),
         root_reaction=np.zeros(6),
         root_stiffness=np.zeros((6, 6)),
         root_damping=np.zeros((6, 6)),
         root_power=np.zeros(2),
         residual=np.zeros(nv),
-        blocks=np.zeros((len(height), 4, 3, 3)),
+        blocks=np.zeros((len(height), 7, 3, 3)),
         articulated=np.zeros((n + 1, 6, 6)),
         joint_then=np.zeros((nv, 6)),
         carry=np.zeros((nv, 6)),

@@ -16,8 +16,9 @@ from numba.extending import overload
 from numpy.typing import NDArray
 
 from offwind_pin.compiled import announce, exchanging_kernels
-from offwind_pin.dynamics.balance import balance
+from offwind_pin.dynamics.balance import balance, commit
 from offwind_pin.dynamics.chain_arrays import ChainArrays, chain_arrays
+from offwind_pin.dynamics.restraints import as_kernel_restraint
 from offwind_pin.dynamics.equations import Equations, all_loads, smooth_ramp
 from offwind_pin.dynamics.iteration import correction, factorise, unstable_directions
 from offwind_pin.dynamics.recorder_arrays import (
@@ -60,7 +61,8 @@ class CompiledChain:
         self.ramp_time = ramp_time
         self._given = loads
         self.loads = [as_kernel_load(load) for load in all_loads(system, loads)]
-        self.arrays = chain_arrays(system, self.loads)
+        self._root = as_kernel_restraint(system.foundation.root)
+        self.arrays = chain_arrays(system, self.loads, self._root)
 
     def rows(self, time: Array) -> Array:
         """(t, 1 + w) time, and the numbers of the loads that depend on it alone, at times (t,)."""
@@ -83,6 +85,20 @@ class CompiledChain:
         """(nv,) solution of the iteration matrix for a right side."""
         with exchanging_kernels():
             return correction(self.arrays, residual).copy()
+
+    @property
+    def memory(self) -> Array:
+        """(m,) what soil and foundation keep of their past; a copy."""
+        return self.arrays.memory.copy()
+
+    @memory.setter
+    def memory(self, past: Array) -> None:
+        self.arrays.memory[:] = past
+
+    def commit(self, q: Array) -> None:
+        """End a step at the state last evaluated."""
+        with self.running():
+            commit(self.arrays, q)
 
     def unstable_directions(self) -> int:
         """Number of motions away from the factorised static state that need no work."""
@@ -126,7 +142,7 @@ class CompiledChain:
 
     def equations(self) -> Equations:
         """The same equations of motion by Pinocchio."""
-        return Equations(self.system, self._given, self.ramp_time)
+        return Equations(self.system, self._given, self.ramp_time, self.memory)
 
     def worst_joint(self, residual: Array) -> tuple[str, float]:
         """Name and size of the largest entry of a residual."""

@@ -17,10 +17,19 @@ import numpy as np
 import pinocchio as pin
 
 from offwind_pin.dynamics.kinematics import AxisPoints, ChainMotion
+from offwind_pin.dynamics.restraints import KernelRestraint, as_kernel_restraint
 from offwind_pin.dynamics.sea import added_mass, water_load
 from offwind_pin.dynamics.system import System
 from offwind_pin.errors import InputError
-from offwind_pin.loads.points import PointForces, PointLoad, PointMotion
+from offwind_pin.loads.points import (
+    MOMENT_BY_POSITION,
+    MOMENT_BY_SPIN,
+    MOMENT_BY_TURN,
+    KernelLoad,
+    PointForces,
+    PointLoad,
+    PointMotion,
+)
 from offwind_pin.turbines.definition import Array
 
 
@@ -48,7 +57,13 @@ class Equations:
     points : where they act
     """
 
-    def __init__(self, system: System, loads: Sequence[PointLoad], ramp_time: float) -> None:
+    def __init__(
+        self,
+        system: System,
+        loads: Sequence[PointLoad],
+        ramp_time: float,
+        memory: Array | None = None,
+    ) -> None:
         self.system = system
         self.chain = system.chain
         self.ramp_time = ramp_time
@@ -58,6 +73,11 @@ class Equations:
         self.points = AxisPoints.on(system.chain, np.concatenate(heights))
         edges = np.cumsum([len(height) for height in heights])
         self._parts = [slice(int(a), int(b)) for a, b in itertools.pairwise(edges)]
+        self._root = as_kernel_restraint(system.foundation.root)
+        self._memory = split_memory(self.loads, self._root, memory)
+        joints = len(system.chain.node_joints)
+        last = system.chain.roots + joints * np.arange(system.chain.elements + 1)
+        self._last_joint = [int(joint) for joint in last]
 
     def residual(self, time: float, q: Array, v: Array, a: Array) -> Array:
         """(nv,) generalised forces out of balance, in N and N m."""
@@ -67,9 +87,8 @@ class Equations:
         balance -= state.motion.generalised_force(
             self.points, state.points.position, state.forces.force, state.forces.moment
         )
-        root = self.system.foundation.root
-        if root is not None:
-            balance[:6] += root.reaction(q[:6], v[:6])
+        if self.chain.roots:
+            balance[:6] += self._root.reaction(q[:6], v[:6], self._memory[-1])
         return balance
 
     def mass(self, q: Array) -> Array:
@@ -88,8 +107,8 @@ class Equations:
         pin.computeRNEADerivatives(self._model, self._data, q, v, rate)
         stiffness = by_q + self._data.dtau_dq + np.diag(self.system.joint_stiffness)
         damping = by_v + self._data.dtau_dv + np.diag(self.system.joint_damping)
-        if self.system.foundation.root is not None:
-            by_displacement, by_rate = self.system.foundation.root.tangents(q[:6], v[:6])
+        if self.chain.roots:
+            by_displacement, by_rate = self._root.tangents(q[:6], v[:6], self._memory[-1])
             stiffness[:6, :6] += by_displacement
             damping[:6, :6] += by_rate
         return stiffness, damping
@@ -105,8 +124,11 @@ class Equations:
         points = motion.points(self.points)
         force, moment = np.zeros((2, len(self.points.height), 3))
         rise = float(smooth_ramp(np.array(time), self.ramp_time))
-        for load, part in zip(self.loads, self._parts, strict=True):
-            result = load.forces(time, points[part], rise)
+        for load, part, past in zip(self.loads, self._parts, self._memory[:-1], strict=True):
+            if isinstance(load, KernelLoad):
+                result = load.forces(time, points[part], rise, past)
+            else:
+                result = load.forces(time, points[part], rise)
             force[part], moment[part] = result.force, result.moment
         return Evaluation(motion, points, PointForces(force, moment))
 
@@ -119,7 +141,9 @@ class Equations:
         """Motion of the chain's axis."""
         pin.computeJointJacobiansTimeVariation(self._model, self._data, q, v)
         rate = np.zeros_like(q) if a is None else a
-        return ChainMotion(self.chain, np.array(self._data.J), np.array(self._data.dJ), q, v, rate)
+        rotation = np.array([self._data.oMi[joint].rotation for joint in self._last_joint])
+        jacobian, its_rate = np.array(self._data.J), np.array(self._data.dJ)
+        return ChainMotion(self.chain, jacobian, its_rate, rotation, q, v, rate)
 
     def _load_tangents(
         self, time: float, q: Array, v: Array, a: Array
@@ -128,8 +152,11 @@ class Equations:
         state = self.evaluate(time, q, v, a)
         rise = float(smooth_ramp(np.array(time), self.ramp_time))
         by_q, by_v, by_a = np.zeros((3, len(q), len(q)))
-        for load, part in zip(self.loads, self._parts, strict=True):
-            tangents = load.tangents(time, state.points[part], rise)
+        for load, part, past in zip(self.loads, self._parts, self._memory[:-1], strict=True):
+            if isinstance(load, KernelLoad):
+                tangents = load.tangents(time, state.points[part], rise, past)
+            else:
+                tangents = load.tangents(time, state.points[part], rise)
             how = state.motion.derivatives(self.points[part], state.points[part])
             change = np.einsum("nij,njk->nik", tangents.stiffness, how.position)
             change += np.einsum("nij,njk->nik", tangents.damping, how.velocity_by_q)
@@ -141,10 +168,28 @@ class Equations:
             by_v -= np.tensordot(how.position, change, axes=([0, 1], [0, 1]))
             change = np.einsum("nij,njk->nik", tangents.inertia, how.position)
             by_a -= np.tensordot(how.position, change, axes=([0, 1], [0, 1]))
+            blocks = tangents.blocks()
+            if np.any(blocks[:, MOMENT_BY_POSITION:]):
+                change = np.einsum("nij,njk->nik", blocks[:, MOMENT_BY_POSITION], how.position)
+                change += np.einsum("nij,njk->nik", blocks[:, MOMENT_BY_TURN], how.turn)
+                change += np.einsum("nij,njk->nik", blocks[:, MOMENT_BY_SPIN], how.spin_by_q)
+                by_q -= np.tensordot(how.rotation, change, axes=([0, 1], [0, 1]))
+                change = np.einsum("nij,njk->nik", blocks[:, MOMENT_BY_SPIN], how.rotation)
+                by_v -= np.tensordot(how.rotation, change, axes=([0, 1], [0, 1]))
         by_q -= state.motion.geometric_stiffness(
             self.points, state.points.position, state.forces.force, state.forces.moment
         )
         return by_q, by_v, by_a
+
+
+def split_memory(
+    loads: Sequence[PointLoad], root: KernelRestraint, memory: Array | None
+) -> list[Array]:
+    """What each load and, last, the root keep of their past; nothing happened unless given."""
+    sizes = [load.memory_size if isinstance(load, KernelLoad) else 0 for load in loads]
+    sizes.append(root.memory_size)
+    whole = np.zeros(sum(sizes)) if memory is None else memory
+    return np.split(whole, np.cumsum(sizes)[:-1])
 
 
 def all_loads(system: System, loads: Sequence[PointLoad]) -> list[PointLoad]:

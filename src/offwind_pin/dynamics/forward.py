@@ -143,6 +143,11 @@ def move_points(s: ChainArrays) -> None:
             s.motion[i, 6 + j] = velocity[j]
             s.motion[i, 9 + j] = axis[j]
             s.motion[i, 12 + j] = acceleration[j]
+            s.motion[i, 18 + j] = s.spin[k, j]
+        turn = s.rotation[k]
+        s.motion[i, 15] = (turn[2, 1] - turn[1, 2]) / 2
+        s.motion[i, 16] = (turn[0, 2] - turn[2, 0]) / 2
+        s.motion[i, 17] = (turn[1, 0] - turn[0, 1]) / 2
         s.motion[i, 5] -= s.point_height[i]
 
 

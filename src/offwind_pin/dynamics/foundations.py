@@ -14,7 +14,8 @@ import numpy as np
 from offwind_pin.dynamics.restraints import LinearRestraint, RootRestraint
 from offwind_pin.errors import InputError
 from offwind_pin.loads.points import PointLoad
-from offwind_pin.loads.soil import SoilSprings, dashpot_time
+from offwind_pin.loads.dashpots import Dashpot
+from offwind_pin.loads.pile_soil import pile_soil
 from offwind_pin.turbines.definition import Turbine
 
 
@@ -79,11 +80,13 @@ def distributed_springs(turbine: Turbine) -> Foundation:
     toe = np.diag(
         [0, 0, springs.toe_vertical_stiffness, 0, 0, springs.toe_torsional_stiffness]
     ).astype(float)
+    dashpot = Dashpot.of(springs.dashpot)
+    toe_time = dashpot.initial_time + dashpot.secant_time[0]
     return Foundation(
         "distributed_springs",
         turbine.toe,
-        LinearRestraint(toe, dashpot_time(springs.dashpot) * toe),
-        (SoilSprings.along_pile(springs, turbine.site.mudline, turbine.toe),),
+        LinearRestraint(toe, toe_time * toe),
+        pile_soil(springs, turbine.site.mudline, turbine.toe),
         springs.surrogate,
     )
 

@@ -206,7 +206,8 @@ def load_matrices(s: ChainArrays, row: Array, by_v: float, by_a: float) -> None:
     for i in range(s.loads):
         points = slice(s.first_point[i], s.first_point[i + 1])
         numbers = row[s.first_number[i] : s.first_number[i + 1]]
-        s.tangents[i](s.motion[points], s.constants[i], numbers, s.blocks[points])
+        past = s.memory[s.first_memory[i] : s.first_memory[i + 1]]
+        s.tangents[i](s.motion[points], s.constants[i], numbers, past, s.blocks[points])
     by_twist = np.empty((3, 6))
     for i in range(len(s.point_body)):
         k = s.point_body[i]
@@ -231,3 +232,24 @@ def load_matrices(s: ChainArrays, row: Array, by_v: float, by_a: float) -> None:
                 matrix[j, m] -= by_twist[j, m]
                 matrix[3 + j, m] -= place[n] * by_twist[o, m] - place[o] * by_twist[n, m]
         add_arm(matrix, place, row_of(s.force, i))
+        moment_matrix(s, i, by_v)
+
+
+@kernel
+def moment_matrix(s: ChainArrays, i: int, by_v: float) -> None:
+    """Take off the derivatives of the moment at a point, by its place, turn and spin.
+
+    A rotation phi turns an orientation R by [phi] R, and its axial vector by (tr(R) - R) phi / 2.
+    """
+    k, place = s.point_body[i], row_of(s.motion, i)
+    matrix, turn, blocks = s.articulated[k], s.rotation[k], s.blocks[i]
+    trace = turn[0, 0] + turn[1, 1] + turn[2, 2]
+    for j in range(3):
+        for m in range(3):
+            n, o = (m + 1) % 3, (m + 2) % 3
+            by_rotation = blocks[4, j, o] * place[n] - blocks[4, j, n] * place[o]
+            by_rotation += blocks[5, j, m] * trace / 2 + by_v * blocks[6, j, m]
+            for r in range(3):
+                by_rotation -= blocks[5, j, r] * turn[r, m] / 2
+            matrix[3 + j, m] -= blocks[4, j, m]
+            matrix[3 + j, 3 + m] -= by_rotation

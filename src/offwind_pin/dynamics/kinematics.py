@@ -43,11 +43,15 @@ class PointDerivatives:
     """Derivatives (n, 3, nv) of the motion of points by q, v and a.
 
     position : of the position by q, of the velocity by v, and of the acceleration by a
-    axis, velocity_by_q, acceleration_by_q, acceleration_by_v : of these by q or v
+    rotation : of the section by q, of its spin by v
+    axis, turn, velocity_by_q, spin_by_q, acceleration_by_q, acceleration_by_v : of these by q or v
     """
 
     position: Array
+    rotation: Array
     axis: Array
+    turn: Array
+    spin_by_q: Array
     velocity_by_q: Array
     acceleration_by_q: Array
     acceleration_by_v: Array
@@ -61,6 +65,7 @@ class ChainMotion:
     chain : the chain
     jacobian, jacobian_rate : (6, nv) world-frame joint Jacobian and its time derivative, linear
         rows first
+    rotation : (N + 1, 3, 3) orientation of each body
     q, v, a : (nv,) joint displacements, velocities and accelerations
 
     Attributes
@@ -70,16 +75,22 @@ class ChainMotion:
     """
 
     def __init__(
-        self, chain: Chain, jacobian: Array, jacobian_rate: Array, q: Array, v: Array, a: Array
+        self,
+        chain: Chain,
+        jacobian: Array,
+        jacobian_rate: Array,
+        rotation: Array,
+        q: Array,
+        v: Array,
+        a: Array,
     ) -> None:
         self.chain = chain
         self.jacobian = jacobian
+        self.rotation = rotation
         self.dof_body = dof_body(chain)
         joints = len(chain.node_joints)
         self._last_dof = chain.roots + joints * np.arange(chain.elements + 1) - 1
-        self.axis = np.tile([0.0, 0.0, 1.0], (chain.elements + 1, 1))
-        turned = self._last_dof >= 0
-        self.axis[turned] = jacobian[3:, self._last_dof[turned]].T
+        self.axis = rotation[:, :, 2]
         rise = np.zeros((chain.elements + 1, 3))
         rise[0] = [0.0, 0.0, chain.base]
         rise[1:] = np.diff(chain.origin)[:, None] * self.axis[:-1]
@@ -102,7 +113,10 @@ class ChainMotion:
         acceleration = (
             rate[:, :3] + np.cross(rate[:, 3:], position) + np.cross(twist[:, 3:], velocity)
         )
-        return PointMotion(position, displacement, velocity, axis, acceleration)
+        turn = axial_vector(self.rotation[points.body])
+        return PointMotion(
+            position, displacement, velocity, axis, acceleration, turn, twist[:, 3:]
+        )
 
     def points_at(self, height: Array) -> PointMotion:
         """Motion of the points of the axis at undeformed heights in m."""
@@ -135,7 +149,12 @@ class ChainMotion:
         by_v = rate_by_v[..., :3] + np.cross(rate_by_v[..., 3:], place)
         by_v = by_v + np.cross(columns[..., 3:], motion.velocity[:, None]) + np.cross(spin, moved)
         axis = np.cross(columns[..., 3:], motion.axis[:, None])
-        parts = (moved, axis, speed, pushed, by_v)
+        rotation = np.broadcast_to(columns[..., 3:], moved.shape)
+        orientation = self.rotation[points.body]
+        trace = np.trace(orientation, axis1=1, axis2=2)
+        by_rotation = (trace[:, None, None] * np.eye(3) - orientation) / 2
+        turn = np.einsum("nij,nkj->nki", by_rotation, rotation)
+        parts = (moved, rotation, axis, turn, beyond[..., 3:], speed, pushed, by_v)
         return PointDerivatives(*(self._kept(part, lower) for part in parts))
 
     def generalised_force(
@@ -211,6 +230,15 @@ def spatial_cross(a: Array, b: Array) -> Array:
     """(..., 6) product of spatial velocities, linear part first."""
     linear = np.cross(a[..., 3:], b[..., :3]) + np.cross(a[..., :3], b[..., 3:])
     return np.concatenate([linear, np.cross(a[..., 3:], b[..., 3:])], axis=-1)
+
+
+def axial_vector(rotation: Array) -> Array:
+    """(n, 3) vectors t whose skew matrices are the skew parts of rotations (n, 3, 3).
+
+    A rotation phi turns an orientation R by [phi] R, and t by (tr(R) - R) phi / 2.
+    """
+    skew_part = (rotation - rotation.transpose(0, 2, 1)) / 2
+    return skew_part[:, [2, 0, 1], [1, 2, 0]]
 
 
 def skew(vector: Array) -> Array:

@@ -17,7 +17,7 @@ from offwind_pin.turbines.definition import Array
 STATE_ENERGIES = ("kinetic", "gravitational", "elastic", "root")
 """First columns of the stored energies; one for each load follows."""
 
-JOINT_DAMPERS, ROOT_DASHPOTS = 0, 1
+JOINT_DAMPERS, ROOT = 0, 1
 """First columns of the energies dissipated; one for each load follows."""
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from offwind_pin.compiled import kernel
 from offwind_pin.dynamics.balance import (
+    commit,
     rna_inertia_times,
     rna_needs,
     round_body_needs,
@@ -21,7 +22,7 @@ from offwind_pin.dynamics.forward import (
     scale,
     subtract,
 )
-from offwind_pin.dynamics.recorder_arrays import Cuts, RecorderArrays
+from offwind_pin.dynamics.recorder_arrays import JOINT_DAMPERS, ROOT, Cuts, RecorderArrays
 from offwind_pin.turbines.definition import Array
 
 
@@ -35,7 +36,8 @@ def take_note(
     iterations: int,
     size: float,
 ) -> None:
-    """Sum energies up to a step, and write a record where one is due."""
+    """End a step: keep its past, sum energies up to it, and write a record where one is due."""
+    commit(s, q)
     add_energies(s, r, v, time - r.clock[0])
     r.clock[0] = time
     r.tally[0] += 1
@@ -175,19 +177,25 @@ def store_energies(s: ChainArrays, q: Array, result: Array) -> None:
     result[0], result[1], result[2], result[3] = kinetic, gravitational, elastic, s.root_power[1]
     for i in range(s.loads):
         points = slice(s.first_point[i], s.first_point[i + 1])
-        result[4 + i] = s.energies[i](s.motion[points], s.constants[i])
+        past = s.memory[s.first_memory[i] : s.first_memory[i + 1]]
+        result[4 + i] = s.energies[i](s.motion[points], s.constants[i], past)
 
 
 @kernel
 def add_energies(s: ChainArrays, r: RecorderArrays, v: Array, step: float) -> None:
-    """Integrate the powers dissipated and worked over a step, by the trapezoidal rule."""
+    """Integrate the powers dissipated and worked over a step, by the trapezoidal rule.
+
+    What was dissipated by the end of the step as such is added.
+    """
     dampers = 0.0
     for i in range(len(v)):
         dampers += s.damping[i] * v[i] ** 2
-    add_power(r.energy[0], r.power[0], 0, dampers, step)
-    add_power(r.energy[0], r.power[0], 1, s.root_power[0], step)
+    add_power(r.energy[0], r.power[0], JOINT_DAMPERS, dampers, step)
+    add_power(r.energy[0], r.power[0], ROOT, s.root_power[0], step)
+    r.energy[0, ROOT] += s.heat[s.loads]
     for i in range(s.loads):
         add_power(r.energy[0], r.power[0], 2 + i, s.lost[i], step)
+        r.energy[0, 2 + i] += s.heat[i]
         if not r.stores[i]:
             add_power(r.energy[1], r.power[1], 2 + i, power_of(s, i) + s.lost[i], step)
 

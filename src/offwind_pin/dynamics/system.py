@@ -51,12 +51,18 @@ class System:
         """The same system with other joint dampers."""
         return replace(self, joint_damping=joint_damping, damping_ratios=ratios)
 
-    def equations(self, loads: Sequence[PointLoad] = (), ramp_time: float = 0.0) -> Equations:
+    def equations(
+        self,
+        loads: Sequence[PointLoad] = (),
+        ramp_time: float = 0.0,
+        memory: Array | None = None,
+    ) -> Equations:
         """Equations of motion under loads, by Pinocchio.
 
         ramp_time : seconds over which waves, and the loads' departures from their means, rise; an
             infinite one keeps them away, as for statics and modes
+        memory : (m,) what soil and foundation keep of their past, as in :class:`StaticResult`
         """
         from offwind_pin.dynamics.equations import Equations
 
-        return Equations(self, loads, ramp_time)
+        return Equations(self, loads, ramp_time, memory)

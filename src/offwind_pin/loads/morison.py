@@ -12,7 +12,6 @@ from offwind_pin.loads.points import (
     KernelLoad,
     energy_kernel,
     force_kernel,
-    nothing_stored,
     tangent_kernel,
 )
 from offwind_pin.loads.waves import WaveKinematics
@@ -47,7 +46,7 @@ def _along(a: Array, b: Array) -> float:
 
 
 @force_kernel
-def _added_mass_forces(motion: Array, constants: Array, row: Array, force: Array) -> float:
+def _added_mass_forces(motion: Array, constants: Array, row: Array, memory: Array, force: Array) -> float:
     for i in range(len(motion)):
         axis, acceleration = motion[i, 9:12], motion[i, 12:15]
         along = _along(axis, acceleration)
@@ -58,7 +57,7 @@ def _added_mass_forces(motion: Array, constants: Array, row: Array, force: Array
 
 
 @tangent_kernel
-def _added_mass_tangents(motion: Array, constants: Array, row: Array, blocks: Array) -> None:
+def _added_mass_tangents(motion: Array, constants: Array, row: Array, memory: Array, blocks: Array) -> None:
     for i in range(len(motion)):
         axis, acceleration, mass = motion[i, 9:12], motion[i, 12:15], constants[i, 0]
         along = _along(axis, acceleration)
@@ -71,7 +70,7 @@ def _added_mass_tangents(motion: Array, constants: Array, row: Array, blocks: Ar
 
 
 @energy_kernel
-def _added_mass_energy(motion: Array, constants: Array) -> float:
+def _added_mass_energy(motion: Array, constants: Array, memory: Array) -> float:
     energy = 0.0
     for i in range(len(motion)):
         axis, velocity = motion[i, 9:12], motion[i, 6:9]
@@ -110,7 +109,7 @@ _INERTIA, _DRAG = 0, 1
 
 
 @force_kernel
-def _morison_forces(motion: Array, constants: Array, row: Array, force: Array) -> float:
+def _morison_forces(motion: Array, constants: Array, row: Array, memory: Array, force: Array) -> float:
     n = len(motion)
     water = row.reshape(2, n, 3)
     relative, accelerated = np.empty(3), np.empty(3)
@@ -134,7 +133,7 @@ def _morison_forces(motion: Array, constants: Array, row: Array, force: Array) -
 
 
 @tangent_kernel
-def _morison_tangents(motion: Array, constants: Array, row: Array, blocks: Array) -> None:
+def _morison_tangents(motion: Array, constants: Array, row: Array, memory: Array, blocks: Array) -> None:
     """d(|w| w)/dw = |w| I + w w' / |w|, and w = P (u_w - v) with P = I - e e' of the axis e."""
     n = len(motion)
     water = row.reshape(2, n, 3)
@@ -182,7 +181,6 @@ class MorisonForce(KernelLoad):
 
     force_kernel = _morison_forces
     tangent_kernel = _morison_tangents
-    energy_kernel = nothing_stored
 
     @property
     def height(self) -> Array:

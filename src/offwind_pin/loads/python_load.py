@@ -16,12 +16,13 @@ from offwind_pin.loads.points import (
     AXIS,
     DISPLACEMENT,
     POSITION,
+    SPIN,
+    TURN,
     VELOCITY,
     KernelLoad,
     PointLoad,
     PointMotion,
     force_kernel,
-    nothing_stored,
     tangent_kernel,
 )
 from offwind_pin.turbines.definition import Array
@@ -39,14 +40,14 @@ def _call_tangents(number: float, motion: Array, row: Array, blocks: Array) -> N
 
 
 @force_kernel
-def _forces(motion: Array, constants: Array, row: Array, force: Array) -> float:
+def _forces(motion: Array, constants: Array, row: Array, memory: Array, force: Array) -> float:
     with objmode(lost="float64"):
         lost = _call_forces(constants[0, 0], motion, row, force)
     return lost  # noqa: RET504 (a block in object mode cannot return)
 
 
 @tangent_kernel
-def _tangents(motion: Array, constants: Array, row: Array, blocks: Array) -> None:
+def _tangents(motion: Array, constants: Array, row: Array, memory: Array, blocks: Array) -> None:
     with objmode():
         _call_tangents(constants[0, 0], motion, row, blocks)
 
@@ -60,7 +61,6 @@ class PythonLoad(KernelLoad):
 
     force_kernel = _forces
     tangent_kernel = _tangents
-    energy_kernel = nothing_stored
 
     def __init__(self, load: PointLoad) -> None:
         self.load = load
@@ -101,10 +101,7 @@ class PythonLoad(KernelLoad):
             self.failure = failure
             blocks[:] = np.nan
             return
-        for i, block in enumerate(
-            (result.stiffness, result.damping, result.inertia, result.turning)
-        ):
-            blocks[:, i] = block
+        blocks[:] = result.blocks()
 
 
 def as_kernel_load(load: PointLoad) -> KernelLoad:
@@ -121,4 +118,6 @@ def _motion(columns: Array) -> PointMotion:
         columns[:, VELOCITY],
         columns[:, AXIS],
         columns[:, ACCELERATION],
+        columns[:, TURN],
+        columns[:, SPIN],
     )

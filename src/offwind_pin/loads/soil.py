@@ -1,4 +1,4 @@
-"""Distributed soil springs: p-y springs and dashpots at the nodes of an embedded pile."""
+"""Soil springs at the nodes of an embedded pile, elastic, with or without dashpots."""
 
 from __future__ import annotations
 
@@ -7,106 +7,170 @@ from functools import cached_property
 
 import numpy as np
 
+from offwind_pin.compiled import kernel
+from offwind_pin.loads.dashpots import Dashpot, ratio_at
 from offwind_pin.loads.points import (
+    BY_POSITION,
+    BY_VELOCITY,
+    DISPLACEMENT,
+    MOMENT_BY_SPIN,
+    MOMENT_BY_TURN,
+    SPIN,
+    TURN,
+    VELOCITY,
     KernelLoad,
     energy_kernel,
     force_kernel,
     tangent_kernel,
 )
-from offwind_pin.loads.soil_curves import SoilCurves, curve_at, curve_energy, soil_curves
-from offwind_pin.turbines.definition import Array, DistributedSprings, SoilDashpot
+from offwind_pin.loads.soil_curves import SoilCurves, curve_at, curve_energy
+from offwind_pin.turbines.definition import Array
 
-_LENGTH, _SECANT_TIME, _DASHPOT, _CURVE = range(4)
-"""Columns of a node's constants: tributary length, ratio of a dashpot coefficient to the secant
-stiffness, a further coefficient that is constant, and where the curve's numbers begin."""
+
+@dataclass(frozen=True)
+class Direction:
+    """What a spring resists, as columns of motion and force, and places among the tangents.
+
+    deflection, rate, force : first columns; components : how many follow one another, of which the
+    law sees the vector's size; stiffness, damping : places of the tangents, at ``component``
+    """
+
+    deflection: int
+    rate: int
+    force: int
+    components: int
+    stiffness: int
+    damping: int
+    component: int
+
+    @property
+    def numbers(self) -> Array:
+        """(7,) for the constants of a load."""
+        return np.array(
+            [
+                self.deflection,
+                self.rate,
+                self.force,
+                self.components,
+                self.stiffness,
+                self.damping,
+                self.component,
+            ],
+            dtype=float,
+        )
+
+
+LATERAL = Direction(DISPLACEMENT.start, VELOCITY.start, 0, 2, BY_POSITION, BY_VELOCITY, 0)
+VERTICAL = Direction(DISPLACEMENT.start + 2, VELOCITY.start + 2, 2, 1, BY_POSITION, BY_VELOCITY, 2)
+ROCKING = Direction(TURN.start, SPIN.start, 3, 2, MOMENT_BY_TURN, MOMENT_BY_SPIN, 0)
+TORSIONAL = Direction(TURN.start + 2, SPIN.start + 2, 5, 1, MOMENT_BY_TURN, MOMENT_BY_SPIN, 2)
+"""Horizontal displacement, settlement, rotation about horizontal axes, twist about the axis."""
+
+_LENGTH, _CONSTANT, _DASHPOT, _CURVE = range(7, 11)
+"""Columns of a node's constants after its direction: tributary length, dashpot coefficient that is
+constant, and where the numbers of the dashpot and of the curve begin."""
+
+
+@kernel
+def deflection_size(values: Array, first: int, components: int) -> float:
+    """Size of the deflection in a row of motion."""
+    if components == 1:
+        return abs(values[first])
+    return np.sqrt(values[first] ** 2 + values[first + 1] ** 2)
 
 
 @force_kernel
-def _forces(motion: Array, constants: Array, row: Array, force: Array) -> float:
+def _forces(motion: Array, constants: Array, row: Array, memory: Array, force: Array) -> float:
     lost = 0.0
     for i in range(len(motion)):
-        ux, uy, vx, vy = motion[i, 3], motion[i, 4], motion[i, 6], motion[i, 7]
-        secant, _ = curve_at(constants[i, _CURVE:], np.sqrt(ux**2 + uy**2))
-        spring = secant * constants[i, _LENGTH]
-        dashpot = spring * constants[i, _SECANT_TIME] + constants[i, _DASHPOT]
-        force[i, 0] = -spring * ux - dashpot * vx
-        force[i, 1] = -spring * uy - dashpot * vy
-        force[i, 2:] = 0.0
-        lost += dashpot * (vx**2 + vy**2)
+        c = constants[i]
+        u, v, f, components = int(c[0]), int(c[1]), int(c[2]), int(c[3])
+        y = deflection_size(motion[i], u, components)
+        secant, _ = curve_at(c[int(c[_CURVE]) :], y)
+        spring = secant * c[_LENGTH]
+        time, _ = ratio_at(c[int(c[_DASHPOT]) :], y)
+        dashpot = spring * time + c[_CONSTANT]
+        force[i] = 0.0
+        for j in range(components):
+            force[i, f + j] = -spring * motion[i, u + j] - dashpot * motion[i, v + j]
+            lost += dashpot * motion[i, v + j] ** 2
     return lost
 
 
 @tangent_kernel
-def _tangents(motion: Array, constants: Array, row: Array, blocks: Array) -> None:
+def _tangents(motion: Array, constants: Array, row: Array, memory: Array, blocks: Array) -> None:
     for i in range(len(motion)):
-        u, v = motion[i, 3:5], motion[i, 6:8]
-        y = np.sqrt(u[0] ** 2 + u[1] ** 2)
-        secant, tangent = curve_at(constants[i, _CURVE:], y)
-        length, time = constants[i, _LENGTH], constants[i, _SECANT_TIME]
-        slope = (tangent - secant) * length / y**2 if y > 0 else 0.0
-        for j in range(2):
-            for k in range(2):
-                blocks[i, 0, j, k] = -(u[j] + time * v[j]) * slope * u[k]
-            blocks[i, 0, j, j] -= secant * length
-            blocks[i, 1, j, j] = -secant * length * time - constants[i, _DASHPOT]
+        c = constants[i]
+        u, v, components = int(c[0]), int(c[1]), int(c[3])
+        stiffness, damping, place = int(c[4]), int(c[5]), int(c[6])
+        y = deflection_size(motion[i], u, components)
+        secant, tangent = curve_at(c[int(c[_CURVE]) :], y)
+        time, slope = ratio_at(c[int(c[_DASHPOT]) :], y)
+        spring = secant * c[_LENGTH]
+        by_size = (tangent * c[_LENGTH] - spring) / y if y > 0 else 0.0
+        dashpot_by_size = by_size * time + spring * slope
+        for j in range(components):
+            for k in range(components):
+                along = motion[i, u + k] / y if y > 0 else 0.0
+                blocks[i, stiffness, place + j, place + k] = (
+                    -(motion[i, u + j] * by_size + motion[i, v + j] * dashpot_by_size) * along
+                )
+            blocks[i, stiffness, place + j, place + j] -= spring
+            blocks[i, damping, place + j, place + j] = -spring * time - c[_CONSTANT]
 
 
 @energy_kernel
-def _energy(motion: Array, constants: Array) -> float:
+def _energy(motion: Array, constants: Array, memory: Array) -> float:
     energy = 0.0
     for i in range(len(motion)):
-        y = np.sqrt(motion[i, 3] ** 2 + motion[i, 4] ** 2)
-        energy += constants[i, _LENGTH] * curve_energy(constants[i, _CURVE:], y)
+        c = constants[i]
+        y = deflection_size(motion[i], int(c[0]), int(c[3]))
+        energy += c[_LENGTH] * curve_energy(c[int(c[_CURVE]) :], y)
     return energy
 
 
 @dataclass(frozen=True, eq=False)
 class SoilSprings(KernelLoad):
-    """Lateral springs and dashpots; the force opposes the horizontal displacement vector.
+    """Springs and dashpots; the force opposes the vector of the deflection.
 
-    F = -K_s(y) u - C_s v with y = |u| and K_s = p(y) l_s / y (Rahman et al., MECC 2025, Eq. 6).
-    The dashpot is C_s = K_s(y) beta_s / (pi f_load) (Eq. 7) or, with ``initial_dashpot``, constant
-    with the initial stiffness K_s(0) in its place.
+    F = -K_s(y) u - C_s v with y = |u| and K_s = p(y) l_s / y (Rahman et al., MECC 2025, Eq. 6);
+    C_s = K_s(y) beta_s(y) / (pi f_load) (Eq. 7), or constant with the initial stiffness K_s(0).
 
     Attributes
     ----------
+    name : short, unique in a system
+    direction : what is resisted; for rotations read moment for force
     height : (n,) heights of the nodes in m
-    tributary_length : (n,) length of pile that each spring stands for, l_s, in m
-    curves : p-y curves of the nodes
-    dashpot_time : beta_s / (pi f_load) in s
-    initial_dashpot : whether the dashpots keep the coefficient that they have at y = 0
+    tributary_length : (n,) length of pile that each spring stands for, l_s, in m; 1 at the toe
+    curves : resistance per length over deflection
+    dashpot : beside each spring
     """
 
+    name: str
+    direction: Direction
     height: Array
     tributary_length: Array
     curves: SoilCurves
-    dashpot_time: float
-    initial_dashpot: bool = False
-    name: str = "soil"
+    dashpot: Dashpot
 
     force_kernel = _forces
     tangent_kernel = _tangents
     energy_kernel = _energy
 
-    @staticmethod
-    def along_pile(springs: DistributedSprings, mudline: float, toe: float) -> SoilSprings:
-        """Nodes at equal distances from mudline to toe; the end nodes have half a length."""
-        height = np.linspace(mudline, toe, springs.nodes)
-        length = np.full(springs.nodes, (mudline - toe) / (springs.nodes - 1))
-        length[[0, -1]] /= 2
-        curves = soil_curves(springs.curve, mudline - height)
-        constant = springs.dashpot is not None and springs.dashpot.stiffness == "initial"
-        return SoilSprings(height, length, curves, dashpot_time(springs.dashpot), constant)
-
     @cached_property
     def constants(self) -> Array:
-        n = len(self.height)
-        initial = self.curves.secant(np.zeros(n)) * self.tributary_length
-        secant = np.full(n, 0.0 if self.initial_dashpot else self.dashpot_time)
-        constant = initial * self.dashpot_time if self.initial_dashpot else np.zeros(n)
-        return np.column_stack([self.tributary_length, secant, constant, self.curves.numbers])
+        return spring_constants(self.direction, self.tributary_length, self.curves, self.dashpot)
 
 
-def dashpot_time(dashpot: SoilDashpot | None) -> float:
-    """Ratio of dashpot coefficient to stiffness, beta_s / (pi f_load), in s."""
-    return 0.0 if dashpot is None else dashpot.damping_factor / (np.pi * dashpot.load_frequency)
+def spring_constants(
+    direction: Direction, length: Array, curves: SoilCurves, dashpot: Dashpot
+) -> Array:
+    """(n, c) constants of springs at n nodes; see ``_LENGTH`` and the others."""
+    n = len(length)
+    initial = curves.secant(np.zeros(n)) * length * dashpot.initial_time
+    begin = len(direction.numbers) + 4
+    places = [begin, begin + len(dashpot.numbers)]
+    head = np.concatenate([direction.numbers, np.zeros(2), places])
+    rows = np.tile(np.concatenate([head, dashpot.numbers]), (n, 1))
+    rows[:, _LENGTH], rows[:, _CONSTANT] = length, initial
+    return np.hstack([rows, curves.numbers])

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from offwind_pin.errors import InputError
-from offwind_pin.loads.points import KernelLoad, force_kernel, no_tangents, nothing_stored
+from offwind_pin.loads.points import KernelLoad, force_kernel, no_tangents
 from offwind_pin.loads.soil_curves import to_numbers
 from offwind_pin.turbines.definition import Array
 
@@ -60,7 +60,7 @@ class LoadHistory:
 
 
 @force_kernel
-def _forces(motion: Array, constants: Array, row: Array, force: Array) -> float:
+def _forces(motion: Array, constants: Array, row: Array, memory: Array, force: Array) -> float:
     force[0, :] = row
     return 0.0
 
@@ -80,7 +80,6 @@ class TowerTopLoad(KernelLoad):
 
     force_kernel = _forces
     tangent_kernel = no_tangents
-    energy_kernel = nothing_stored
 
     @property
     def height(self) -> Array:

@@ -21,7 +21,7 @@ FRAME = "inertial: x downwind, y left looking downwind, z up from still water le
 SECTION = "what the part above the section exerts on the part below"
 
 HOLDERS = ("kinetic", "gravitational", "elastic", "foundation")
-SINKS = ("joint_dampers", "foundation_dashpots")
+SINKS = ("joint_dampers", "foundation")
 """What holds and what takes up energy besides the loads."""
 
 
