@@ -13,7 +13,8 @@ from offwind_pin.dynamics.system import System
 from offwind_pin.errors import InputError
 from offwind_pin.loads.points import PointForces, PointLoad, PointMotion, PointTangents
 from offwind_pin.loads.tower_top import constant_load
-from offwind_pin.turbines.definition import Array, CoupledSprings
+from offwind_pin.turbines.base import Array
+from offwind_pin.turbines.soil import CoupledSprings
 
 CondensedStiffness = Literal["tangent", "secant"]
 

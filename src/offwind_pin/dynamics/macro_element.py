@@ -25,6 +25,8 @@ _ARM, _COUNT, _ELEMENTS = 36, 37, 38
 number of elements, and their stiffnesses in translation and rotation and their limits."""
 
 _X, _Y, _Z, _RX, _RY, _RZ = range(6)
+_ROUNDING = 1e-10
+"""Relative excess of a squared limit below which an element has not yielded."""
 _SOFTENED = 0.05
 """Relative departure of a path's first secant stiffness from that of small motions."""
 _EQUAL = 1e-6
@@ -66,7 +68,7 @@ def _reaction(
             pull[i] = (a if i < 2 else b) * stretch[i]
             square += pull[i] * stretch[i]
         share = 1.0
-        if square > limit**2:
+        if square > limit**2 * (1 + _ROUNDING):
             size = np.sqrt(square)
             share = limit / size
             for i in range(4):
@@ -120,7 +122,7 @@ def _commit(displacement: Array, numbers: Array, memory: Array) -> float:
         square = 0.0
         for i in range(4):
             square += (a if i < 2 else b) * (now[i] - memory[4 * j + i]) ** 2
-        if square > limit**2:
+        if square > limit**2 * (1 + _ROUNDING):
             size = np.sqrt(square)
             slip = 1 - limit / size
             heat += limit * slip * size
@@ -210,14 +212,6 @@ class MacroElement(KernelRestraint):
         shift = displacement + arm * rotation
         turning = moment - arm * force
         whole = stiffness[_X, _X], stiffness[_RY, _RY] - arm**2 * stiffness[_X, _X]
-        for secant in (force[0] / shift[0] / whole[0], turning[0] / rotation[0] / whole[1]):
-            if not abs(secant - 1) < _SOFTENED:
-                raise InputError(
-                    "macro-element's path",
-                    f"a first point {secant:.3g} times as stiff as the 6x6",
-                    f"1 within {_SOFTENED}: a path that starts with the stiffness of small motions",
-                    "Take 6x6 and path from the same soil; begin with a smaller load; N and m?",
-                )
         for name, values in (("translation", shift), ("rotation", rotation)):
             if not np.all(np.diff(values, prepend=0.0) > 0):
                 raise InputError(
@@ -225,6 +219,14 @@ class MacroElement(KernelRestraint):
                     f"a decoupled {name} of {values.tolist()}",
                     "values that rise from zero",
                     "Give a monotonic loading whose moment has the sign of the force.",
+                )
+        for secant in (force[0] / shift[0] / whole[0], turning[0] / rotation[0] / whole[1]):
+            if not abs(secant - 1) < _SOFTENED:
+                raise InputError(
+                    "macro-element's path",
+                    f"a first point {secant:.3g} times as stiff as the 6x6",
+                    f"1 within {_SOFTENED}: a path that starts with the stiffness of small motions",
+                    "Take 6x6 and path from the same soil; begin with a smaller load; N and m?",
                 )
         a, b, limit, departure = _fitted(
             _Path(shift, rotation, force, turning), float(whole[0]), float(whole[1])

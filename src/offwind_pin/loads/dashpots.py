@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from offwind_pin.compiled import kernel
-from offwind_pin.turbines.definition import Array, SoilDashpot
+from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.soil import DampingCurve, SoilDashpot
 
 
 @kernel
@@ -54,10 +55,16 @@ class Dashpot:
         """The dashpot of a definition, or none."""
         if definition is None:
             return NO_DASHPOT
-        unit = 1 / (np.pi * definition.load_frequency)
+        unit, factor = 1 / (np.pi * definition.load_frequency), definition.damping_factor
+        if isinstance(factor, DampingCurve):
+            return Dashpot(np.array(factor.displacement), unit * np.array(factor.factor))
         if definition.stiffness == "initial":
-            return Dashpot(np.zeros(1), np.zeros(1), unit * float(definition.damping_factor))
-        return Dashpot(np.zeros(1), np.array([unit * definition.damping_factor]))
+            return Dashpot(np.zeros(1), np.zeros(1), unit * factor)
+        return Dashpot(np.zeros(1), np.array([unit * factor]))
+
+    def of_rotations(self, radius: float) -> Dashpot:
+        """The dashpot of rotational springs: that of the displacement at a radius in m."""
+        return replace(self, deflection=self.deflection / radius)
 
 
 NO_DASHPOT = Dashpot(np.zeros(1), np.zeros(1))

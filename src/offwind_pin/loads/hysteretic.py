@@ -28,6 +28,8 @@ _DASHPOT, _SLIDERS = 7, 8
 """Columns of a node's constants after its direction: constant dashpot coefficient, and number of
 sliders; their stiffnesses and then their yield deflections follow."""
 
+_ROUNDING = 1e-10
+"""Relative excess of a squared yield deflection below which a slider has not yielded."""
 _FIRST_SHARE, _LAST_SHARE = 0.02, 0.999
 """Shares of the ultimate resistance at which the first and the last slider yield."""
 _SEARCHED = np.geomspace(1e-9, 10.0, 2001)
@@ -57,7 +59,7 @@ def _forces(motion: Array, constants: Array, row: Array, memory: Array, force: A
         for j in range(sliders):
             x, y, square = _stretch(motion[i], u, components, memory, first)
             pull, limit = c[_SLIDERS + 1 + j], c[_SLIDERS + 1 + sliders + j]
-            if square > limit * limit:
+            if square > limit * limit * (1 + _ROUNDING):
                 pull *= limit / np.sqrt(square)
             along_x += pull * x
             along_y += pull * y
@@ -84,7 +86,7 @@ def _tangents(motion: Array, constants: Array, row: Array, memory: Array, blocks
             x, y, square = _stretch(motion[i], u, components, memory, first)
             pull, limit = c[_SLIDERS + 1 + j], c[_SLIDERS + 1 + sliders + j]
             first += components
-            if square <= limit * limit:
+            if square <= limit * limit * (1 + _ROUNDING):
                 block[place, place] -= pull
                 if components == 2:
                     block[place + 1, place + 1] -= pull
@@ -121,7 +123,7 @@ def _commit(motion: Array, constants: Array, memory: Array) -> float:
         for j in range(sliders):
             x, y, square = _stretch(motion[i], u, components, memory, first)
             limit = c[_SLIDERS + 1 + sliders + j]
-            if square > limit * limit:
+            if square > limit * limit * (1 + _ROUNDING):
                 size = np.sqrt(square)
                 slip = 1 - limit / size
                 heat += c[_SLIDERS + 1 + j] * limit * slip * size
@@ -190,7 +192,9 @@ def sliders_of(curves: SoilCurves, count: int) -> tuple[Array, Array]:
             continue
         ends = [
             _SEARCHED[min(np.searchsorted(resistance[:, i], share * ultimate), len(_SEARCHED) - 1)]
-            for share in (_FIRST_SHARE, _LAST_SHARE)
+            for share in (_ROUNDING = 1e-10
+"""Relative excess of a squared yield deflection below which a slider has not yielded."""
+_FIRST_SHARE, _LAST_SHARE)
         ]
         y = np.geomspace(*ends, count)
         p = np.array([curves.resistance(np.full(n, value))[i] for value in y])
