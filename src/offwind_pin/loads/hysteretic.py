@@ -192,9 +192,7 @@ def sliders_of(curves: SoilCurves, count: int) -> tuple[Array, Array]:
             continue
         ends = [
             _SEARCHED[min(np.searchsorted(resistance[:, i], share * ultimate), len(_SEARCHED) - 1)]
-            for share in (_ROUNDING = 1e-10
-"""Relative excess of a squared yield deflection below which a slider has not yielded."""
-_FIRST_SHARE, _LAST_SHARE)
+            for share in (_FIRST_SHARE, _LAST_SHARE)
         ]
         y = np.geomspace(*ends, count)
         p = np.array([curves.resistance(np.full(n, value))[i] for value in y])
