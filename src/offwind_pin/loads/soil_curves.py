@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from offwind_pin.compiled import kernel
 from offwind_pin.errors import InputError
@@ -18,6 +19,9 @@ from offwind_pin.turbines.definition import Array, CurveTable, LinearModulus, Ta
 
 _LARGEST_DISPLACEMENT = 10.0
 _COLUMNS = ("depth_m", "y_m", "p_n_per_m")
+_STRAIGHT = 1e-9
+ON_BOUNDARY = 1e-9
+"""Depths in m that differ by less are the same: heights of nodes carry rounding errors."""
 
 
 LINEAR, TANH, TABLE, POWER, CONIC = 0.0, 1.0, 2.0, 3.0, 4.0
@@ -215,6 +219,10 @@ def _curves_at(numbers: Array, y: Array) -> Array:
     return result
 
 
+Places = NDArray[np.intp] | NDArray[np.bool_]
+"""Some of the nodes, by number or by a mask."""
+
+
 @dataclass(frozen=True, eq=False)
 class SoilCurves:
     """One curve for each of n nodes; y >= 0 is the size of the lateral displacement in m.
@@ -251,7 +259,7 @@ def _ultimate(row: Array) -> float:
     return float(row[2] if row[0] == TANH else row[1])
 
 
-def stack_curves(parts: Sequence[tuple[Array, SoilCurves]]) -> SoilCurves:
+def stack_curves(parts: Sequence[tuple[NDArray[np.intp], SoilCurves]]) -> SoilCurves:
     """Curves of different laws as one.
 
     parts : for each the places (m,) of its m curves in the result, and the curves; the places of
@@ -291,28 +299,20 @@ def power_curves(ultimate: Array, end: Array, exponent: float, line: Array) -> S
     return SoilCurves(np.column_stack([law, ultimate, end, np.full_like(ultimate, exponent), line]))
 
 
-def conic_curves(
-    initial_modulus: Array, end: Array, ultimate: Array, curvature: Array
-) -> SoilCurves:
-    """Conics of PISA: initial modulus k, ultimate resistance p_u from y_u on, curvature n.
+def conic_curves(end: Array, ultimate: Array, slope_ratio: Array, curvature: Array) -> SoilCurves:
+    """Conics of PISA: ultimate resistance p_u from y_u on, initial slope K p_u / y_u, curvature n.
 
-    All (n,). A curvature of zero gives two straight lines. Where p_u is zero there is nothing.
-
-    Raises
-    ------
-    InputError : k below p_u / y_u, or a curvature outside [0, 1), of which no such conic exists
+    end (y_u), ultimate (p_u), slope_ratio (K >= 1), curvature (0 <= n < 1) : (n,); a curvature of
+        zero gives two straight lines, a p_u of zero nothing at all
     """
-    firm = ultimate > 0
-    ratio = np.divide(initial_modulus * end, ultimate, out=np.ones_like(end), where=firm)
-    allowed = "an initial stiffness of at least the ultimate resistance over its displacement"
-    if np.any(ratio < 1 - 1e-12):
-        raise InputError("conic curve", float(ratio.min()), allowed, "Check the parameters.")
-    if np.any((curvature < 0) | (curvature >= 1)):
-        raise InputError("conic curve", curvature.tolist(), "curvature in [0, 1)", "Check it.")
-    straight = ratio <= 1 + 1e-12
     law = np.full_like(ultimate, CONIC)
-    curvature = np.where(straight, 0.0, curvature)
-    return SoilCurves(np.column_stack([law, ultimate, end, np.maximum(ratio, 1.0), curvature]))
+    # at K = 1 the conic degenerates into the chord, whatever its curvature
+    straight = slope_ratio <= 1 + _STRAIGHT
+    return SoilCurves(
+        np.column_stack(
+            [law, ultimate, end, np.maximum(slope_ratio, 1.0), np.where(straight, 0.0, curvature)]
+        )
+    )
 
 
 def tabulated_curves(
@@ -335,12 +335,12 @@ def tabulated_curves(
     ------
     InputError : a table that cannot be read, or that has no curve in a layer
     """
-    curves = _read_table(path, columns)
+    curves = _read_table(path, columns, read_numbers(path, columns))
     grid = np.unique(np.concatenate([[0.0], *(y for y, _ in curves.values())]))
     depths = np.array(sorted(curves))
     loads = np.array([np.interp(grid, *curves[d]) for d in depths])
-    tabulated_layer = np.searchsorted(boundaries, depths, side="right")
-    layer = np.searchsorted(boundaries, depth, side="right")
+    tabulated_layer = np.searchsorted(boundaries, depths + ON_BOUNDARY, side="right")
+    layer = np.searchsorted(boundaries, depth + ON_BOUNDARY, side="right")
     at_nodes = np.empty((len(depth), len(grid)))
     for i in range(len(boundaries) + 1):
         rows, nodes = tabulated_layer == i, layer == i
@@ -371,10 +371,24 @@ def soil_curves(curve: LinearModulus | TanhCurve | CurveTable, depth: Array) -> 
     return tabulated_curves(curve.file, depth, curve.boundaries)
 
 
-def _read_table(path: Path, columns: tuple[str, ...]) -> dict[float, tuple[Array, Array]]:
+def tabulated_curve(path: Path, columns: tuple[str, str]) -> SoilCurves:
+    """One curve from a table of displacement and resistance.
+
+    Raises
+    ------
+    InputError : a table that cannot be read
+    """
+    rows = [(line, (0.0, *pair)) for line, pair in read_numbers(path, columns)]
+    y, p = _read_table(path, ("depth_m", *columns), rows)[0.0]
+    return point_curves(y[None], p[None])
+
+
+def _read_table(
+    path: Path, columns: tuple[str, str, str], rows: list[tuple[int, tuple[float, ...]]]
+) -> dict[float, tuple[Array, Array]]:
     """(y, p) by depth, both from the origin; every fault of the file told with its line."""
     by_depth: dict[float, list[tuple[float, float]]] = {}
-    for line, (depth, y, p) in read_numbers(path, columns):
+    for line, (depth, y, p) in rows:
         where = f"{path}, line {line}"
         if min(depth, y, p) < 0:
             raise InputError(
@@ -384,8 +398,8 @@ def _read_table(path: Path, columns: tuple[str, ...]) -> dict[float, tuple[Array
                 "Give one side of the curve.",
             )
         if y > _LARGEST_DISPLACEMENT:
-            allowed = f"y up to {_LARGEST_DISPLACEMENT} m"
-            raise InputError(where, y, allowed, "Is y in m?")
+            allowed = f"{columns[1]} up to {_LARGEST_DISPLACEMENT}"
+            raise InputError(where, y, allowed, f"Is {columns[1]} in the unit it names?")
         points = by_depth.setdefault(depth, [])
         if points and y <= points[-1][0]:
             raise InputError(

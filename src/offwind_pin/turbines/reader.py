@@ -11,7 +11,8 @@ import yaml
 from pydantic import BaseModel, ValidationError
 
 from offwind_pin.errors import InputError
-from offwind_pin.turbines.definition import CurveTable, Turbine
+from offwind_pin.turbines.definition import Turbine
+from offwind_pin.turbines.soil import BearingTable, CurveTable, ShaftTable, TorsionTable
 
 Model = TypeVar("Model", bound=BaseModel)
 Schema = dict[str, Any]
@@ -218,10 +219,16 @@ def _choices(schema: Schema, node: Schema, having: str = "properties") -> list[S
 def _with_absolute_paths(turbine: Turbine, folder: Path) -> Turbine:
     """File names inside a definition are relative to that definition."""
     springs = turbine.soil.distributed_springs
-    if springs is None or not isinstance(springs.curve, CurveTable):
+    if springs is None:
         return turbine
-    curve = springs.curve.model_copy(update={"file": (folder / springs.curve.file).absolute()})
-    springs = springs.model_copy(update={"curve": curve})
+    curves = {
+        name: curve.model_copy(update={"file": (folder / curve.file).absolute()})
+        for name in ("curve", "vertical", "torsional", "toe_bearing")
+        if isinstance(
+            curve := getattr(springs, name), CurveTable | ShaftTable | TorsionTable | BearingTable
+        )
+    }
+    springs = springs.model_copy(update=curves)
     return turbine.model_copy(
         update={"soil": turbine.soil.model_copy(update={"distributed_springs": springs})}
     )
