@@ -17,6 +17,7 @@ from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
 
 from offwind_pin.analysis.build import build
+from offwind_pin.analysis.foundations import FOUNDATIONS
 from offwind_pin.analysis.modal import mode_name, modes
 from offwind_pin.analysis.static import static
 from offwind_pin.campaign.case import load_case
@@ -44,9 +45,7 @@ app = typer.Typer(
 )
 
 TurbineArgument = Annotated[str, typer.Argument(help="Shipped name (oc6_phase2) or a YAML file.")]
-FoundationOption = Annotated[
-    str, typer.Option(help="clamped, coupled_springs or distributed_springs.")
-]
+FoundationOption = Annotated[str, typer.Option(help=f"One of {', '.join(FOUNDATIONS)}.")]
 ElementsOption = Annotated[int | None, typer.Option(help="Multibody beam elements in all.")]
 ElementOption = Annotated[
     Element, typer.Option(help="euler_bernoulli, or timoshenko for elements that shear as well.")

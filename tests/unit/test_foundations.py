@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import offwind_pin as ow
+from offwind_pin.analysis.foundations import FOUNDATIONS
 from offwind_pin.dynamics import foundations
 from offwind_pin.dynamics.foundations import Foundation
 from offwind_pin.dynamics.restraints import LinearRestraint
@@ -41,7 +42,7 @@ def hardening(oc6: ow.Turbine, monkeypatch: pytest.MonkeyPatch) -> ow.Turbine:
     def make(turbine: ow.Turbine) -> Foundation:
         return Foundation("hardening", turbine.site.mudline, restraint)
 
-    monkeypatch.setitem(foundations.FOUNDATIONS, "hardening", make)
+    monkeypatch.setitem(FOUNDATIONS, "hardening", make)
     return oc6
 
 
@@ -95,9 +96,7 @@ def test_another_foundation_fits_the_interface(hardening: ow.Turbine) -> None:
 
 def test_a_lower_base_fits_the_interface(oc6: ow.Turbine, monkeypatch: pytest.MonkeyPatch) -> None:
     """A chain held rigidly below the mudline, as apparent fixity is, is softer than a clamped one."""
-    monkeypatch.setitem(
-        foundations.FOUNDATIONS, "deeper", lambda turbine: Foundation("deeper", -45.0)
-    )
+    monkeypatch.setitem(FOUNDATIONS, "deeper", lambda turbine: Foundation("deeper", -45.0))
     deeper = ow.modes(ow.build(oc6, "deeper"))
     clamped = ow.modes(ow.build(oc6, "clamped"))
     assert deeper.frequency_hz[0] < 0.95 * clamped.frequency_hz[0]

@@ -55,7 +55,9 @@ def trace(load: HystereticSprings, path: Array, memory: Array) -> tuple[Array, f
 
 def along_x(*corners: float, steps: int = 200) -> Array:
     """(t, 2) from corner to corner."""
-    legs = [np.linspace(a, b, steps + 1)[1:] for a, b in zip(corners[:-1], corners[1:], strict=True)]
+    legs = [
+        np.linspace(a, b, steps + 1)[1:] for a, b in zip(corners[:-1], corners[1:], strict=True)
+    ]
     x = np.concatenate(legs)
     return np.column_stack([x, np.zeros_like(x)])
 
@@ -150,7 +152,9 @@ def test_rate_does_not_matter() -> None:
     assert load.forces(0.0, moving, 1.0).dissipation == 0
     viscous = springs(dashpot=Dashpot(np.zeros(1), np.zeros(1), 0.01))
     extra = still - viscous.forces(0.0, moving, 1.0).force
-    assert extra[0, :2] == pytest.approx([0.03 * MODULUS * LENGTH, 0.01 * MODULUS * LENGTH], rel=1e-3)
+    assert extra[0, :2] == pytest.approx(
+        [0.03 * MODULUS * LENGTH, 0.01 * MODULUS * LENGTH], rel=1e-3
+    )
 
 
 @settings(max_examples=40, deadline=None)
@@ -159,9 +163,7 @@ def test_no_history_gives_energy_back(corners: list[tuple[float, float]]) -> Non
     """Heat is never negative (asserted in ``trace``); work is stored or heat, by the first law."""
     points = BEND * np.array([(0.0, 0.0), *corners])
     steps = 60
-    legs = [
-        np.linspace(a, b, steps + 1)[1:] for a, b in zip(points[:-1], points[1:], strict=True)
-    ]
+    legs = [np.linspace(a, b, steps + 1)[1:] for a, b in zip(points[:-1], points[1:], strict=True)]
     path = np.concatenate(legs)
     load = springs(12)
     memory = np.zeros(load.memory_size)

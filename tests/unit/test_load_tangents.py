@@ -13,13 +13,13 @@ from helpers.point_loads import EveryKind
 
 import offwind_pin as ow
 from offwind_pin.dynamics.sea import added_mass, water_load
-from offwind_pin.loads.morison import AddedMass, MorisonForce
-from offwind_pin.loads.points import KernelLoad, PointMotion, PointTangents, nothing_stored
-from offwind_pin.loads.python_load import PythonLoad
 from offwind_pin.loads.dashpots import NO_DASHPOT, Dashpot
 from offwind_pin.loads.frictional_moment import FrictionalMoment
 from offwind_pin.loads.hysteretic import HystereticSprings
+from offwind_pin.loads.morison import AddedMass, MorisonForce
 from offwind_pin.loads.pile_soil import pile_nodes
+from offwind_pin.loads.points import KernelLoad, PointMotion, PointTangents, nothing_stored
+from offwind_pin.loads.python_load import PythonLoad
 from offwind_pin.loads.soil import LATERAL, ROCKING, TORSIONAL, VERTICAL, Direction, SoilSprings
 from offwind_pin.loads.soil_curves import soil_curves, tanh_curves
 from offwind_pin.loads.tower_top import TowerTopLoad
@@ -222,9 +222,7 @@ def shifted(motion: PointMotion, parts: tuple[str, ...], by: Array) -> PointMoti
     return replace(motion, **{part: getattr(motion, part) + by for part in parts})
 
 
-def by_differences(
-    load: KernelLoad, motion: PointMotion, of: str, parts: tuple[str, ...]
-) -> Array:
+def by_differences(load: KernelLoad, motion: PointMotion, of: str, parts: tuple[str, ...]) -> Array:
     """(n, 3, 3) derivatives of forces or moments by parts of the motion."""
     derivative = np.empty((len(load.height), 3, 3))
     for i, unit in enumerate(STEP * np.eye(3)):
@@ -252,7 +250,7 @@ def errors(load: KernelLoad, motion: PointMotion, tangents: PointTangents) -> di
 
 def depends_on(name: str) -> set[str]:
     """Blocks of a load that must not be zero."""
-    if name in ("soil rocking", "soil torsional") or " in " in name and "sliding" in name:
+    if name in ("soil rocking", "soil torsional") or (" in " in name and "sliding" in name):
         return {"moment_stiffness", "moment_damping"}
     if name.startswith("soil"):
         return {"stiffness"} if name.endswith("elastic") else {"stiffness", "damping"}
@@ -352,7 +350,9 @@ def conservative_error(load: KernelLoad, motion: PointMotion) -> float:
         assert motion.acceleration is not None
         moving = replace(motion, velocity=motion.acceleration)
         return relative_difference(result.force, -energy_slope(load, moving, ("velocity",)))
-    slopes = [energy_slope(load, still, parts) for parts in (("position", "displacement"), ("turn",))]
+    slopes = [
+        energy_slope(load, still, parts) for parts in (("position", "displacement"), ("turn",))
+    ]
     return relative_difference(np.hstack([result.force, result.moment]), -np.hstack(slopes))
 
 

@@ -153,9 +153,7 @@ def test_a_rotated_motion_gives_the_rotated_reaction(angle: float, u: float, tur
 @settings(max_examples=30, deadline=None)
 @given(
     st.lists(
-        st.tuples(
-            st.floats(-0.05, 0.05), st.floats(-0.005, 0.005), st.floats(-0.05, 0.05)
-        ),
+        st.tuples(st.floats(-0.05, 0.05), st.floats(-0.005, 0.005), st.floats(-0.05, 0.05)),
         min_size=1,
         max_size=6,
     )

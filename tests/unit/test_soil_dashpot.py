@@ -90,9 +90,7 @@ def test_dissipation_is_viscous() -> None:
 def test_no_dashpot_takes_nothing() -> None:
     """Without a dashpot the springs are elastic."""
     assert Dashpot.of(None) is NO_DASHPOT
-    soil = SoilSprings(
-        "soil", LATERAL, np.zeros(1), np.ones(1), linear_curves(MODULUS), NO_DASHPOT
-    )
+    soil = SoilSprings("soil", LATERAL, np.zeros(1), np.ones(1), linear_curves(MODULUS), NO_DASHPOT)
     u, v = np.array([[0.02, 0.0, 0.0]]), np.array([[0.3, 0.1, 0.0]])
     still = soil.forces(0.0, PointMotion(u, u, 0 * v, np.array([[0.0, 0.0, 1.0]])), 1.0)
     moving = soil.forces(0.0, PointMotion(u, u, v, np.array([[0.0, 0.0, 1.0]])), 1.0)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
+from offwind_pin.analysis.assembly import assemble
 from offwind_pin.analysis.damping import StructuralDamping, calibrate_damping
-from offwind_pin.dynamics.foundations import make_foundation
+from offwind_pin.analysis.foundations import make_foundation
 from offwind_pin.dynamics.sea import Sea, StillWater
 from offwind_pin.dynamics.system import System
 from offwind_pin.errors import InputError
-from offwind_pin.structure.chain import Element, Elements, Stiffness, build_chain
-from offwind_pin.structure.model import Scratch, build_model
+from offwind_pin.structure.chain import Element, Elements, Stiffness
 from offwind_pin.turbines.definition import Turbine
 
 
@@ -27,7 +27,8 @@ def build(
 
     Parameters
     ----------
-    foundation : ``"clamped"``, ``"coupled_springs"`` or ``"distributed_springs"``
+    foundation : ``"clamped"``, ``"apparent_fixity"``, ``"coupled_springs"``,
+        ``"distributed_springs"`` or ``"macro_element"``
     sea : :class:`StillWater`, :class:`IrregularWaves`, or None for a dry structure
     elements : number of multibody beam elements in all, by region, or None for the default, which
         puts the first five frequencies within 0.1 % of the converged ones
@@ -38,7 +39,18 @@ def build(
     ------
     InputError : an argument or a part of the turbine that cannot be used
     """
-    system = _assemble(turbine, foundation, sea, elements, stiffness, element)
+    if not (sea is None or isinstance(sea, Sea)):
+        raise InputError(
+            "sea", sea, "StillWater(), IrregularWaves(...) or None", "Give one of them."
+        )
+    system = assemble(
+        turbine,
+        make_foundation(turbine, foundation),
+        sea,
+        elements=elements,
+        stiffness=stiffness,
+        element=element,
+    )
     if turbine.structural_damping is None:
         return system
     damping = structural_damping(turbine, element)
@@ -58,35 +70,6 @@ def structural_damping(turbine: Turbine, element: Element = "euler_bernoulli") -
             "Add the block, or leave the structure undamped.",
         )
     sea = StillWater() if calibration.still_water else None
-    undamped = _assemble(turbine, calibration.foundation, sea, None, "flexibility", element)
+    held = make_foundation(turbine, calibration.foundation)
+    undamped = assemble(turbine, held, sea, element=element)
     return calibrate_damping(undamped, calibration)
-
-
-def _assemble(
-    turbine: Turbine,
-    foundation: str,
-    sea: Sea | None,
-    elements: Elements,
-    stiffness: Stiffness,
-    element: Element,
-) -> System:
-    """The system without structural damping."""
-    if not (sea is None or isinstance(sea, Sea)):
-        raise InputError(
-            "sea", sea, "StillWater(), IrregularWaves(...) or None", "Give one of them."
-        )
-    support = make_foundation(turbine, foundation)
-    chain = build_chain(
-        turbine,
-        base=support.base,
-        free_root=support.root is not None,
-        elements=elements,
-        stiffness=stiffness,
-        element=element,
-    )
-    model = build_model(turbine, chain)
-    springs = np.zeros(model.nv)
-    springs[chain.roots :] = chain.joint_stiffness.ravel()
-    return System(
-        turbine, support, chain, sea, model, springs, np.zeros(model.nv), {}, Scratch(model)
-    )

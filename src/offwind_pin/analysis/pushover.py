@@ -6,10 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from offwind_pin.analysis.build import build
+from offwind_pin.analysis.assembly import assemble
 from offwind_pin.analysis.pile import axis_jacobian, pile_only
 from offwind_pin.analysis.static import axis_rotation, load_scale
 from offwind_pin.dynamics.equations import Equations
+from offwind_pin.dynamics.foundations import distributed_springs
 from offwind_pin.dynamics.system import System
 from offwind_pin.errors import InputError, SolverError
 from offwind_pin.loads.points import PointMotion
@@ -57,6 +58,7 @@ def pushover(
     *,
     until_displacement: float | None = None,
     until_load: float | None = None,
+    displacements: Array | None = None,
     points: int = 20,
     elements: Elements = None,
     element: Element = "euler_bernoulli",
@@ -72,6 +74,7 @@ def pushover(
     until_displacement : mudline displacement in m at which to stop; by default, where no load is
         given, a tenth of the diameter there
     until_load : horizontal load in N at which to stop, instead
+    displacements : (n,) of the mudline in m, rising, at which to find the load, instead
     points : number of states after the unloaded one
     elements, element : as for :func:`build`, of the pile alone
 
@@ -80,9 +83,14 @@ def pushover(
     InputError : an argument that cannot be used, or a turbine without a pile or its soil
     SolverError : no equilibrium at a load; its ``results`` hold the :class:`Pushover` so far
     """
-    if until_displacement is not None and until_load is not None:
-        both = f"{until_displacement} m and {until_load} N"
-        raise InputError("until_displacement, until_load", both, "one of them", "Leave one out.")
+    ends = {
+        "until_displacement": until_displacement,
+        "until_load": until_load,
+        "displacements": displacements,
+    }
+    given = [name for name, value in ends.items() if value is not None]
+    if len(given) > 1:
+        raise InputError(", ".join(given), "all of them", "one of them", "Leave the others out.")
     for name, value in (("until_displacement", until_displacement), ("until_load", until_load)):
         if value is not None and not 0 < value < np.inf:
             raise InputError(name, value, "a finite number above zero", "Push forwards.")
@@ -91,7 +99,12 @@ def pushover(
     if points < 1:
         raise InputError("points", points, "1 or more", "Ask for a point at least.")
     pile = pile_only(turbine)
-    system = build(pile, "distributed_springs", elements=elements, element=element)
+    system = assemble(pile, distributed_springs(pile), elements=elements, element=element)
+    if displacements is not None:
+        if not np.all(np.diff(displacements, prepend=0.0) > 0):
+            allowed = "displacements in m that rise from zero"
+            raise InputError("displacements", list(displacements), allowed, "Sort them.")
+        return _Press(system, arm, by_load=False).through(np.append(0.0, displacements))
     if until_load is not None:
         return _Press(system, arm, by_load=True).through(np.linspace(0, until_load, points + 1))
     if until_displacement is None:

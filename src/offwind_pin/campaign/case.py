@@ -6,13 +6,21 @@ from importlib import resources
 from pathlib import Path
 from typing import Annotated, Literal
 
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, Field, model_validator
 
+from offwind_pin.analysis.foundations import FOUNDATIONS
 from offwind_pin.structure.chain import MOST_ELEMENTS, Element
 from offwind_pin.turbines.definition import Definition, NonNegative, Number, Positive
 from offwind_pin.turbines.reader import find_definition, read_model
 
-FoundationName = Literal["clamped", "coupled_springs", "distributed_springs"]
+
+def _known_foundation(name: str) -> str:
+    if name not in FOUNDATIONS:
+        raise ValueError(f"{name!r} is no foundation; choose one of {', '.join(FOUNDATIONS)}")
+    return name
+
+
+FoundationName = Annotated[str, AfterValidator(_known_foundation)]
 
 
 _COARSEST_OUTPUT = 0.3

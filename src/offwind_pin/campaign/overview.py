@@ -6,6 +6,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from offwind_pin.analysis.build import build
+from offwind_pin.analysis.foundations import described_foundations
 from offwind_pin.analysis.modal import modes
 from offwind_pin.dynamics.sea import StillWater
 from offwind_pin.structure.section import lump
@@ -120,13 +121,8 @@ def _member_facts(turbine: Turbine, member: Member) -> MemberFacts:
 
 def _frequencies(turbine: Turbine) -> dict[str, dict[str, float]]:
     """Frequencies on every foundation that the turbine has the numbers for."""
-    described = {
-        "clamped": True,
-        "coupled_springs": turbine.soil.coupled_springs is not None,
-        "distributed_springs": turbine.soil.distributed_springs is not None,
-    }
     found = {}
-    for foundation in (name for name, known in described.items() if known):
+    for foundation in described_foundations(turbine):
         sea = None if foundation == "clamped" else StillWater()
         system = build(turbine, foundation, sea)
         result = modes(system, min(8, system.nv))

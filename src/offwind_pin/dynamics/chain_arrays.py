@@ -94,9 +94,7 @@ def _no_force(motion: Array, constants: Array, row: Array, memory: Array, force:
     return 0.0
 
 
-def chain_arrays(
-    system: System, loads: Sequence[KernelLoad], root: KernelRestraint
-) -> ChainArrays:
+def chain_arrays(system: System, loads: Sequence[KernelLoad], root: KernelRestraint) -> ChainArrays:
     """Arrays of a system under loads, its root held by a restraint if it has joints."""
     chain = system.chain
     n, nv = chain.elements, system.nv

@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 from offwind_pin.compiled import announce, exchanging_kernels
 from offwind_pin.dynamics.balance import balance, commit
 from offwind_pin.dynamics.chain_arrays import ChainArrays, chain_arrays
-from offwind_pin.dynamics.restraints import as_kernel_restraint
 from offwind_pin.dynamics.equations import Equations, all_loads, smooth_ramp
 from offwind_pin.dynamics.iteration import correction, factorise, unstable_directions
 from offwind_pin.dynamics.recorder_arrays import (
@@ -30,6 +29,7 @@ from offwind_pin.dynamics.recorder_arrays import (
     make_segments,
 )
 from offwind_pin.dynamics.recording import take_note
+from offwind_pin.dynamics.restraints import as_kernel_restraint
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.points import PointLoad, nothing_stored
 from offwind_pin.loads.python_load import PythonLoad, as_kernel_load

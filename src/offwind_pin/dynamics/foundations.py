@@ -1,21 +1,25 @@
 """Foundations behind one interface: where the chain starts, what holds its root, which springs act.
 
-A foundation is three answers. Clamped and apparent fixity start at a height and hold the root
-rigidly; coupled springs and a macro-element start at the mudline and restrain the root's six
-joints; distributed springs start at the toe, with a restraint there and point loads along the pile.
+Clamped and apparent fixity hold the root of a chain rigidly; coupled springs and a macro-element
+restrain its six joints at the mudline; distributed springs start at the toe, with a restraint there
+and point loads along the pile.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from offwind_pin.dynamics.restraints import LinearRestraint, RootRestraint
 from offwind_pin.errors import InputError
-from offwind_pin.loads.points import PointLoad
 from offwind_pin.loads.dashpots import Dashpot
-from offwind_pin.loads.pile_soil import pile_soil
+from offwind_pin.loads.ground import Ground
+from offwind_pin.loads.pile_soil import pile_nodes, pile_soil
+from offwind_pin.loads.points import PointLoad
+from offwind_pin.loads.soil_cautions import cautions
+from offwind_pin.structure.section import outer_diameter
+from offwind_pin.turbines.base import Array
 from offwind_pin.turbines.definition import Turbine
 
 
@@ -30,6 +34,9 @@ class Foundation:
     root : restraint of the base's six joints, or None where the base does not move
     soil : loads along the embedded pile
     surrogate : why its numbers stand in for others, or None
+    structure : what is held, where that is not the turbine as defined
+    facts : plain data about how it came about
+    cautions : sentences about curves that are used outside their field base
     """
 
     name: str
@@ -37,6 +44,9 @@ class Foundation:
     root: RootRestraint | None = None
     soil: tuple[PointLoad, ...] = ()
     surrogate: str | None = None
+    structure: Turbine | None = None
+    facts: dict[str, object] = field(default_factory=dict)
+    cautions: tuple[str, ...] = ()
 
     def describe(self) -> dict[str, object]:
         """Plain data for the sidecar: what holds the root and where the soil acts."""
@@ -45,6 +55,7 @@ class Foundation:
             "base_z_m": self.base,
             "root": None if self.root is None else self.root.describe(),
             "soil_nodes_z_m": [height for load in self.soil for height in load.height.tolist()],
+            **self.facts,
             "surrogate": self.surrogate,
         }
 
@@ -56,61 +67,65 @@ def clamped(turbine: Turbine) -> Foundation:
 
 def coupled_springs(turbine: Turbine) -> Foundation:
     """A 6x6 stiffness at the mudline stands for pile and soil."""
-    springs = turbine.soil.coupled_springs
-    if springs is None:
-        raise _missing(turbine, "coupled_springs")
-    stiffness = np.array(springs.stiffness)
+    stiffness = given_stiffness(turbine)
     return Foundation(
         "coupled_springs", turbine.site.mudline, LinearRestraint(stiffness, np.zeros((6, 6)))
     )
 
 
-def distributed_springs(turbine: Turbine) -> Foundation:
-    """The pile to its toe, with p-y springs along it and vertical and torsional springs there."""
-    springs = turbine.soil.distributed_springs
-    if springs is None:
-        raise _missing(turbine, "distributed_springs")
-    if turbine.toe >= turbine.site.mudline:
-        raise InputError(
-            f"turbine {turbine.name}, field members",
-            f"a lowest station at z_m = {turbine.toe}",
-            f"a pile that reaches below the mudline (z = {turbine.site.mudline} m)",
-            "Add a station at the toe, or use another foundation.",
-        )
-    toe = np.diag(
-        [0, 0, springs.toe_vertical_stiffness, 0, 0, springs.toe_torsional_stiffness]
-    ).astype(float)
-    dashpot = Dashpot.of(springs.dashpot)
-    toe_time = dashpot.initial_time + dashpot.secant_time[0]
-    return Foundation(
-        "distributed_springs",
-        turbine.toe,
-        LinearRestraint(toe, toe_time * toe),
-        pile_soil(springs, turbine.site.mudline, turbine.toe),
-        springs.surrogate,
-    )
-
-
-FOUNDATIONS = {
-    "clamped": clamped,
-    "coupled_springs": coupled_springs,
-    "distributed_springs": distributed_springs,
-}
-
-
-def make_foundation(turbine: Turbine, name: str) -> Foundation:
-    """The foundation of that name for a turbine.
+def given_stiffness(turbine: Turbine) -> Array:
+    """(6, 6) of the turbine's coupled springs.
 
     Raises
     ------
-    InputError : no foundation of that name, or the turbine lacks what it needs
+    InputError : none are given, or the mudline is no longer where they belong to
     """
-    if name not in FOUNDATIONS:
-        raise InputError("foundation", name, ", ".join(FOUNDATIONS), "Choose one of them.")
-    return FOUNDATIONS[name](turbine)
+    springs = turbine.soil.coupled_springs
+    if springs is None:
+        raise missing(turbine, "coupled_springs")
+    if turbine.site.scour_depth != 0:
+        raise InputError(
+            f"turbine {turbine.name}, field site.scour_depth_m",
+            turbine.site.scour_depth,
+            "0 with soil.coupled_springs, whose 6x6 belongs to the original mudline",
+            "Condense the distributed springs of the scoured pile, or use them.",
+        )
+    return np.array(springs.stiffness)
 
 
-def _missing(turbine: Turbine, field: str) -> InputError:
+def distributed_springs(turbine: Turbine) -> Foundation:
+    """The pile to its toe, with the soil's springs along it and linear ones at its toe."""
+    springs = turbine.soil.distributed_springs
+    if springs is None:
+        raise missing(turbine, "distributed_springs")
+    mudline, toe = turbine.site.mudline, turbine.toe
+    if toe >= mudline:
+        raise InputError(
+            f"turbine {turbine.name}, field members",
+            f"a lowest station at z_m = {toe}",
+            f"a pile that reaches below the mudline (z = {mudline} m)",
+            "Add a station at the toe, or use another foundation.",
+        )
+    height, length = pile_nodes(springs.nodes, mudline, toe)
+    ground = Ground(
+        mudline - height, outer_diameter(turbine, height), mudline - toe, turbine.site.scour_depth
+    )
+    stiffness = np.diag(
+        [0, 0, springs.toe_vertical_stiffness, 0, 0, springs.toe_torsional_stiffness]
+    ).astype(float)
+    dashpot = Dashpot.of(springs.dashpot)
+    return Foundation(
+        "distributed_springs",
+        toe,
+        LinearRestraint(stiffness, (dashpot.initial_time + dashpot.secant_time[0]) * stiffness),
+        pile_soil(springs, ground, height, length),
+        springs.surrogate,
+        cautions=tuple(cautions(springs, ground)),
+    )
+
+
+def missing(turbine: Turbine, field: str) -> InputError:
+    """A block of the turbine's soil that a foundation needs."""
     return InputError(
         f"turbine {turbine.name}, field soil.{field}",
         "nothing",

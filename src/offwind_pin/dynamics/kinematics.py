@@ -114,9 +114,7 @@ class ChainMotion:
             rate[:, :3] + np.cross(rate[:, 3:], position) + np.cross(twist[:, 3:], velocity)
         )
         turn = axial_vector(self.rotation[points.body])
-        return PointMotion(
-            position, displacement, velocity, axis, acceleration, turn, twist[:, 3:]
-        )
+        return PointMotion(position, displacement, velocity, axis, acceleration, turn, twist[:, 3:])
 
     def points_at(self, height: Array) -> PointMotion:
         """Motion of the points of the axis at undeformed heights in m."""

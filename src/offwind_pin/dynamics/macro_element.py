@@ -207,7 +207,7 @@ class MacroElement(KernelRestraint):
         InputError : planes of different stiffness; a path that does not rise, or starts stiffer
             than the 6x6
         """
-        _check_planes(stiffness)
+        check_planes(stiffness)
         arm = stiffness[_X, _RY] / stiffness[_X, _X]
         shift = displacement + arm * rotation
         turning = moment - arm * force
@@ -244,9 +244,7 @@ class _Path(NamedTuple):
     moment: Array
 
 
-def _fitted(
-    path: _Path, translation: float, rotation: float
-) -> tuple[Array, Array, Array, float]:
+def _fitted(path: _Path, translation: float, rotation: float) -> tuple[Array, Array, Array, float]:
     """Stiffnesses (t,) of given sums, and limits, of elements that yield along a path.
 
     Which share of its pull an element keeps depends on the ratio of its two stiffnesses, so that
@@ -300,7 +298,7 @@ def _of_elements(arm: float, translation: float, rotation: float) -> Array:
     return result
 
 
-def _check_planes(stiffness: Array) -> None:
+def check_planes(stiffness: Array) -> None:
     """Fore-aft and side-side alike, as a round pile has them."""
     pairs = (
         (stiffness[_X, _X], stiffness[_Y, _Y]),

@@ -73,9 +73,7 @@ class KernelRestraint(ABC):
     def describe(self) -> dict[str, object]:
         """Plain data for the sidecar."""
 
-    def reaction(
-        self, displacement: Array, velocity: Array, memory: Array | None = None
-    ) -> Array:
+    def reaction(self, displacement: Array, velocity: Array, memory: Array | None = None) -> Array:
         return self._evaluate(displacement, velocity, memory)[0]
 
     def tangents(

@@ -46,7 +46,9 @@ def _along(a: Array, b: Array) -> float:
 
 
 @force_kernel
-def _added_mass_forces(motion: Array, constants: Array, row: Array, memory: Array, force: Array) -> float:
+def _added_mass_forces(
+    motion: Array, constants: Array, row: Array, memory: Array, force: Array
+) -> float:
     for i in range(len(motion)):
         axis, acceleration = motion[i, 9:12], motion[i, 12:15]
         along = _along(axis, acceleration)
@@ -57,7 +59,9 @@ def _added_mass_forces(motion: Array, constants: Array, row: Array, memory: Arra
 
 
 @tangent_kernel
-def _added_mass_tangents(motion: Array, constants: Array, row: Array, memory: Array, blocks: Array) -> None:
+def _added_mass_tangents(
+    motion: Array, constants: Array, row: Array, memory: Array, blocks: Array
+) -> None:
     for i in range(len(motion)):
         axis, acceleration, mass = motion[i, 9:12], motion[i, 12:15], constants[i, 0]
         along = _along(axis, acceleration)
@@ -109,7 +113,9 @@ _INERTIA, _DRAG = 0, 1
 
 
 @force_kernel
-def _morison_forces(motion: Array, constants: Array, row: Array, memory: Array, force: Array) -> float:
+def _morison_forces(
+    motion: Array, constants: Array, row: Array, memory: Array, force: Array
+) -> float:
     n = len(motion)
     water = row.reshape(2, n, 3)
     relative, accelerated = np.empty(3), np.empty(3)
@@ -133,7 +139,9 @@ def _morison_forces(motion: Array, constants: Array, row: Array, memory: Array, 
 
 
 @tangent_kernel
-def _morison_tangents(motion: Array, constants: Array, row: Array, memory: Array, blocks: Array) -> None:
+def _morison_tangents(
+    motion: Array, constants: Array, row: Array, memory: Array, blocks: Array
+) -> None:
     """d(|w| w)/dw = |w| I + w w' / |w|, and w = P (u_w - v) with P = I - e e' of the axis e."""
     n = len(motion)
     water = row.reshape(2, n, 3)

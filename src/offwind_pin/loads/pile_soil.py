@@ -1,15 +1,38 @@
-"""Every load of the soil on an embedded pile: springs, dashpots or sliders at its nodes."""
+"""Every load of the soil on an embedded pile: springs, dashpots and sliders at its nodes."""
 
 from __future__ import annotations
+
+from collections.abc import Iterator
 
 import numpy as np
 
 from offwind_pin.loads.dashpots import Dashpot
+from offwind_pin.loads.frictional_moment import FrictionalMoment
+from offwind_pin.loads.ground import Ground
+from offwind_pin.loads.hysteretic import HystereticSprings
 from offwind_pin.loads.points import KernelLoad
-from offwind_pin.loads.soil import LATERAL, SoilSprings
-from offwind_pin.loads.soil_curves import soil_curves
-from offwind_pin.turbines.definition import DistributedSprings
-from offwind_pin.turbines.definition import Array
+from offwind_pin.loads.shaft_curves import (
+    toe_bearing_curve,
+    torsional_curves,
+    vertical_curves,
+)
+from offwind_pin.loads.soil import (
+    LATERAL,
+    ROCKING,
+    TORSIONAL,
+    VERTICAL,
+    Direction,
+    SoilSprings,
+)
+from offwind_pin.loads.soil_curves import SoilCurves
+from offwind_pin.loads.soil_families import (
+    base_moment_curve,
+    base_shear_curve,
+    lateral_curves,
+    rocking_curves,
+)
+from offwind_pin.turbines.base import Array
+from offwind_pin.turbines.soil import DistributedSprings
 
 
 def pile_nodes(count: int, mudline: float, toe: float) -> tuple[Array, Array]:
@@ -22,8 +45,72 @@ def pile_nodes(count: int, mudline: float, toe: float) -> tuple[Array, Array]:
     return np.linspace(mudline, toe, count), length
 
 
-def pile_soil(springs: DistributedSprings, mudline: float, toe: float) -> tuple[KernelLoad, ...]:
-    height, length = pile_nodes(springs.nodes, mudline, toe)
-    curves = soil_curves(springs.curve, mudline - height)
+def pile_soil(
+    springs: DistributedSprings, ground: Ground, height: Array, length: Array
+) -> tuple[KernelLoad, ...]:
+    """Loads at the nodes of a pile and at its toe, the lateral springs first.
+
+    Parameters
+    ----------
+    ground : of the nodes
+    height, length : (n,) heights and tributary lengths of the nodes in m, from the mudline down
+
+    Raises
+    ------
+    InputError : a table that cannot be read, a curve that sliders cannot follow, or a pile outside
+        what PISA's parameters can describe
+    """
+    loads: list[KernelLoad] = []
+    toe, whole = height[-1:], np.ones(1)
+    lateral = lateral_curves(springs.curve, ground)
+    loads.append(_springs(springs, ground, "soil", LATERAL, height, length, lateral))
+    rocking = rocking_curves(springs.curve, ground)
+    if rocking is not None:
+        own = ~rocking.by_lateral
+        if np.any(own & (rocking.curves.ultimate > 0)):
+            curves = SoilCurves(rocking.curves.numbers[own])
+            parts = height[own], length[own], curves
+            loads.append(_springs(springs, ground, "soil_rocking", ROCKING, *parts))
+        if np.any(rocking.by_lateral):
+            at = rocking.by_lateral
+            curves = SoilCurves(lateral.numbers[at]), SoilCurves(rocking.curves.numbers[at])
+            loads.append(FrictionalMoment(height[at], length[at], *curves))
+    for name, direction, curve in _toe_curves(springs, ground):
+        loads.append(_springs(springs, ground, name, direction, toe, whole, curve))
+    for name, direction, shaft in (
+        ("soil_shaft", VERTICAL, vertical_curves(springs, ground)),
+        ("soil_torsion", TORSIONAL, torsional_curves(springs, ground)),
+    ):
+        if shaft is not None:
+            loads.append(_springs(springs, ground, name, direction, height, length, shaft))
+    return tuple(loads)
+
+
+def _toe_curves(
+    springs: DistributedSprings, ground: Ground
+) -> Iterator[tuple[str, Direction, SoilCurves]]:
+    for name, direction, curve in (
+        ("soil_base_shear", LATERAL, base_shear_curve(springs.curve, ground)),
+        ("soil_base_moment", ROCKING, base_moment_curve(springs.curve, ground)),
+        ("soil_bearing", VERTICAL, toe_bearing_curve(springs, ground)),
+    ):
+        if curve is not None:
+            yield name, direction, curve
+
+
+def _springs(
+    springs: DistributedSprings,
+    ground: Ground,
+    name: str,
+    direction: Direction,
+    height: Array,
+    length: Array,
+    curves: SoilCurves,
+) -> SoilSprings:
     dashpot = Dashpot.of(springs.dashpot)
-    return (SoilSprings("soil", LATERAL, height, length, curves, dashpot),)
+    if direction in (ROCKING, TORSIONAL):
+        dashpot = dashpot.of_rotations(float(ground.diameter[0]) / 2)
+    parts = (name, direction, height, length, curves, dashpot)
+    if springs.hysteretic is None:
+        return SoilSprings(*parts)
+    return HystereticSprings(*parts, springs.hysteretic.sliders)

@@ -36,9 +36,7 @@ moment in N and N m. Returned is the power in W that the load turns into heat as
 a load that does not dissipate, or does so from step to step.
 """
 
-tangent_kernel = exchangeable(
-    types.void(_MATRIX, _MATRIX, _ROW, _ROW, types.float64[:, :, :, ::1])
-)
+tangent_kernel = exchangeable(types.void(_MATRIX, _MATRIX, _ROW, _ROW, types.float64[:, :, :, ::1]))
 """Decorator for ``kernel(motion, constants, row, memory, blocks)``.
 
 blocks (n, 7, 3, 3), zero at the start, is set to the derivatives of the force by position,

@@ -266,8 +266,48 @@ class DistributedSprings(Definition):
         return self
 
 
+StiffnessSource = Literal["coupled_springs", "distributed_springs"]
+"""Where a stiffness at the mudline comes from: given, or condensed from the unloaded springs."""
+
+
+class ApparentFixity(Definition):
+    """A cantilever in place of pile and soil, of the same displacement and rotation at the mudline.
+
+    They are the same under a horizontal load at ``load_arm`` above the mudline, by default at the
+    yaw bearing. ``stiffness_from`` is by default the 6x6 if there is one.
+    """
+
+    stiffness_from: StiffnessSource | None = None
+    load_arm: NonNegative | None = Field(alias="load_arm_m", default=None)
+
+
+class MacroElementCalibration(Definition):
+    """A monotonic loading of the mudline that a macro-element of some yield surfaces follows.
+
+    It is a pushover of the distributed springs by a load at ``load_arm`` above the mudline, by
+    default at the yaw bearing, up to ``until_displacement``, by default a tenth of the diameter.
+    Or it is read from a CSV ``file`` with columns ``horizontal_load_n, displacement_m,
+    rotation_rad``, whose moment is the load times the arm, and the 6x6 is that of coupled_springs.
+    """
+
+    surfaces: Annotated[int, Field(ge=5, le=200)] = 30
+    load_arm: NonNegative | None = Field(alias="load_arm_m", default=None)
+    until_displacement: Positive | None = Field(alias="until_displacement_m", default=None)
+    file: Path | None = None
+
+    @model_validator(mode="after")
+    def _one_path(self) -> MacroElementCalibration:
+        if self.file is not None and self.until_displacement is not None:
+            raise ValueError(
+                "file already says how far the loading goes; leave until_displacement_m out"
+            )
+        return self
+
+
 class Soil(Definition):
     """Descriptions of the same ground, one for each foundation that needs one."""
 
     coupled_springs: CoupledSprings | None = None
     distributed_springs: DistributedSprings | None = None
+    apparent_fixity: ApparentFixity | None = None
+    macro_element: MacroElementCalibration | None = None

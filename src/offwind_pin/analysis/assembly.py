@@ -1,0 +1,38 @@
+"""Chain, foundation and sea put together."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from offwind_pin.dynamics.foundations import Foundation
+from offwind_pin.dynamics.sea import Sea
+from offwind_pin.dynamics.system import System
+from offwind_pin.structure.chain import Element, Elements, Stiffness, build_chain
+from offwind_pin.structure.model import Scratch, build_model
+from offwind_pin.turbines.definition import Turbine
+
+
+def assemble(
+    turbine: Turbine,
+    foundation: Foundation,
+    sea: Sea | None = None,
+    *,
+    elements: Elements = None,
+    stiffness: Stiffness = "flexibility",
+    element: Element = "euler_bernoulli",
+) -> System:
+    """A system without structural damping; see :func:`build` for the arguments."""
+    held = foundation.structure or turbine
+    chain = build_chain(
+        held,
+        base=foundation.base,
+        free_root=foundation.root is not None,
+        elements=elements,
+        stiffness=stiffness,
+        element=element,
+    )
+    model = build_model(held, chain)
+    springs = np.zeros(model.nv)
+    springs[chain.roots :] = chain.joint_stiffness.ravel()
+    damping = np.zeros(model.nv)
+    return System(held, foundation, chain, sea, model, springs, damping, {}, Scratch(model))
