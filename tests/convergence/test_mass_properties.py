@@ -5,7 +5,7 @@ import pytest
 from helpers.plain import tube
 
 import offwind_pin as ow
-from offwind_pin.dynamics.foundations import make_foundation
+from offwind_pin.analysis.foundations import make_foundation
 from offwind_pin.structure.chain import build_chain
 from offwind_pin.structure.frustum import AxialBody
 

@@ -327,7 +327,7 @@ def test_load_history_fault(
 
 
 CASE_FAULTS: dict[str, tuple[Callable[[Definition], None], str]] = {
-    "unknown foundation": (_set("foundation", to="clampd"), "'clamped'"),
+    "unknown foundation": (_set("foundation", to="clampd"), "one of clamped"),
     "unknown key": (_set("fundation", to="clamped"), "'foundation'"),
     "unknown turbine": (_set("turbine", to="oc6_phase3"), "'oc6_phase2'"),
     "ramp longer than the case": (_set("analysis", "ramp_s", to=700), "ramp_s"),
