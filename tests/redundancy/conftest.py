@@ -4,13 +4,16 @@ import itertools
 from dataclasses import replace
 
 import pytest
+from helpers.soils import hysteretic, layered
 from helpers.states import State, random_state
 
 import offwind_pin as ow
 from offwind_pin.structure.chain import Element
 from offwind_pin.turbines.definition import DepthLine, LinearModulus
 
-FOUNDATIONS = ("clamped", "coupled_springs", "distributed_springs")
+FOUNDATIONS = ("clamped", "coupled_springs", "distributed_springs", "macro_element")
+GROUNDS = {"layered": layered, "hysteretic": hysteretic}
+"""Distributed springs in other grounds."""
 ELEMENTS: tuple[Element, ...] = ("euler_bernoulli", "timoshenko")
 
 
@@ -18,11 +21,14 @@ def _name(value: tuple[str, str]) -> str:
     return ", ".join(value)
 
 
-@pytest.fixture(scope="session", params=itertools.product(FOUNDATIONS, ELEMENTS), ids=_name)
+@pytest.fixture(scope="session", params=itertools.product((*FOUNDATIONS, *GROUNDS), ELEMENTS), ids=_name)
 def any_system(undamped: ow.Turbine, request: pytest.FixtureRequest) -> ow.System:
-    """A coarse system on each foundation, of each kind of element, in still water."""
+    """A coarse system on each foundation and ground, of each kind of element, in still water."""
     foundation, element = request.param
-    return ow.build(undamped, foundation, ow.StillWater(), elements=7, element=element)
+    turbine = undamped
+    if foundation in GROUNDS:
+        turbine, foundation = GROUNDS[foundation](undamped), "distributed_springs"
+    return ow.build(turbine, foundation, ow.StillWater(), elements=7, element=element)
 
 
 @pytest.fixture(scope="session")

@@ -112,9 +112,9 @@ def test_problem_is_as_stated(problem: ModuleType, structure: ow.System) -> None
     assert soil.height == pytest.approx(np.linspace(-30, -75, 61))
     assert soil.curves.resistance(y) == pytest.approx(2e8 * 0.01 * np.tanh(y / 0.01), rel=1e-12)
     assert soil.tributary_length == pytest.approx(length)
-    viscous = soil.constants[:, 2]
+    viscous = soil.constants[:, 8]
     assert viscous == pytest.approx(2e8 * length * 0.1 / (np.pi * 0.236), rel=1e-12)
-    assert np.all(soil.constants[:, 1] == 0)
+    assert np.all(soil.dashpot.secant_time == 0)
     toe = whole.foundation.root
     assert np.count_nonzero(toe.stiffness) == 2
     assert (toe.stiffness[2, 2], toe.stiffness[5, 5]) == (1.12e10, 2.55e11)

@@ -95,7 +95,7 @@ def toe_bearing_curve(springs: DistributedSprings, ground: Ground) -> SoilCurves
     if not isinstance(curve, ApiBearing):
         return tabulated_curve(curve.file, ("z_m", "q_n"))
     diameter = ground.toe.diameter[:, None]
-    area = np.pi * diameter**2 / 4 if curve.area is None else curve.area
+    area = np.pi * diameter**2 / 4 if curve.area is None else np.array([[curve.area]])
     return point_curves(diameter * _BEARING[0], curve.end_bearing * area * _BEARING[1])
 
 
