@@ -6,11 +6,21 @@ import re
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
+import yaml
 
 import offwind_pin as ow
 from offwind_pin.campaign.case import load_case
 from offwind_pin.campaign.run import run_case
+from offwind_pin.loads.ground import Ground
+from offwind_pin.loads.shaft_curves import toe_bearing_curve, torsional_curves, vertical_curves
+from offwind_pin.loads.soil_families import (
+    base_moment_curve,
+    base_shear_curve,
+    lateral_curves,
+    rocking_curves,
+)
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -67,6 +77,26 @@ def test_table_of_the_docs(written: Path) -> None:
         sidecar = (written / "urdf" / "my_turbine.json").read_text()
         hashes.append(re.findall(r'"definition_sha256": "(\w+)"', sidecar)[0])
     assert hashes[0] != hashes[1]
+
+
+def test_layers_of_the_docs(written: Path) -> None:
+    """The layered springs take the place of the tanh springs; every reaction that they name is there."""
+    path = written / "my_turbine.yaml"
+    data = yaml.safe_load(path.read_text())
+    data["soil"] |= yaml.safe_load(_blocks("docs/turbine_file.md", "yaml")[1])
+    path.write_text(yaml.safe_dump(data))
+    springs = ow.load_turbine(path).soil.distributed_springs
+    assert springs is not None
+    ground = Ground(np.linspace(0, 36, springs.nodes), np.full(springs.nodes, 6.0), 36.0)
+    lateral = lateral_curves(springs.curve, ground)
+    assert np.all(lateral.ultimate[1:] > 0)
+    rocking = rocking_curves(springs.curve, ground)
+    assert rocking is not None
+    assert np.count_nonzero(rocking.curves.ultimate) == 19
+    for curve in (base_shear_curve, base_moment_curve):
+        assert curve(springs.curve, ground) is not None
+    for along in (vertical_curves, torsional_curves, toe_bearing_curve):
+        assert along(springs, ground) is not None
 
 
 def test_case_of_the_docs(written: Path) -> None:

@@ -94,9 +94,10 @@ def toe_bearing_curve(springs: DistributedSprings, ground: Ground) -> SoilCurves
         )
     if not isinstance(curve, ApiBearing):
         return tabulated_curve(curve.file, ("z_m", "q_n"))
-    diameter = ground.toe.diameter[:, None]
-    area = np.pi * diameter**2 / 4 if curve.area is None else np.array([[curve.area]])
-    return point_curves(diameter * _BEARING[0], curve.end_bearing * area * _BEARING[1])
+    diameter = float(ground.toe.diameter[0])
+    area = np.pi * diameter**2 / 4 if curve.area is None else curve.area
+    z, q = diameter * _BEARING[0], curve.end_bearing * area * _BEARING[1]
+    return point_curves(z[None], q[None])
 
 
 def _shaft_friction(curve: ApiShaft | ApiTorsion, ground: Ground) -> tuple[Array, Array]:

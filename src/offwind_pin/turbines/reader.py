@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 
 import yaml
 from pydantic import BaseModel, ValidationError
+from pydantic_core import ErrorDetails
 
 from offwind_pin.errors import InputError
 from offwind_pin.turbines.definition import Turbine
@@ -129,9 +130,9 @@ def _input_error(
     """The first thing pydantic found wrong, told to a person."""
     found = sorted(error.errors(), key=lambda item: item["type"] != "extra_forbidden")
     first = found[0]
-    location = _without_union_tags(first["loc"], data)
+    location = _typed(first, data)
     field = ".".join(str(part) for part in location) or "the file"
-    others = [".".join(map(str, _without_union_tags(item["loc"], data))) for item in found[1:]]
+    others = [".".join(map(str, _typed(item, data))) for item in found[1:]]
     more = f" (More to mend in this file: {_enumerate(others)}.)" if others else ""
     where = f"{path}, field {field}"
     if first["type"] == "extra_forbidden":
@@ -165,17 +166,28 @@ def _enumerate(places: list[str], most: int = 5) -> str:
     return ", ".join(shown[:most]) + rest
 
 
-def _without_union_tags(location: tuple[int | str, ...], data: object) -> tuple[int | str, ...]:
-    """Drop the tags pydantic puts in for the chosen member of a union: no user typed them."""
+def _typed(error: ErrorDetails, data: object) -> tuple[int | str, ...]:
+    """Place of an error without the tags pydantic puts in for the chosen member of a union.
+
+    No user typed them. A missing key, the last part of its place, is not in the data either.
+    """
+    location = error["loc"]
+    end = len(location) - (error["type"] == "missing")
     kept: list[int | str] = []
+    entered = False
     for i, part in enumerate(location):
-        if isinstance(data, dict) and part not in data and i < len(location) - 1:
+        if entered and isinstance(data, dict) and part in (data.get("kind"), data.get("model")):
+            entered = False
+            continue
+        absent = not isinstance(data, dict | list) or (isinstance(data, dict) and part not in data)
+        if absent and i < end:
             continue
         kept.append(part)
         if (isinstance(data, dict) and part in data) or (
             isinstance(data, list) and isinstance(part, int) and part < len(data)
         ):
             data = data[part]  # type: ignore[index]
+            entered = True
     return tuple(kept)
 
 

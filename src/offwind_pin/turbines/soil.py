@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import Field, model_validator
+from pydantic import Discriminator, Field, Tag, model_validator
 
 from offwind_pin.turbines.base import Array, Definition, NonNegative, Positive, Vector6
 from offwind_pin.turbines.depth_profile import DepthProfile
@@ -168,13 +168,16 @@ TorsionalCurve = LinearTorsion | TanhTorsion | TorsionTable | ApiTorsion
 BearingCurve = LinearBearing | TanhBearing | BearingTable | ApiBearing
 
 
+DampingFactor = Annotated[NonNegative, Field(le=2)]
+
+
 class DampingCurve(Definition):
     """Damping factor over displacement, linear in log y, constant beyond both ends."""
 
     displacement: Annotated[tuple[Positive, ...], Field(min_length=2)] = Field(
         alias="displacement_m"
     )
-    factor: Annotated[tuple[Annotated[NonNegative, Field(le=2)], ...], Field(min_length=2)]
+    factor: Annotated[tuple[DampingFactor, ...], Field(min_length=2)]
 
     @model_validator(mode="after")
     def _table_is_complete(self) -> DampingCurve:
@@ -202,7 +205,12 @@ class SoilDashpot(Definition):
     """
 
     stiffness: Literal["secant", "initial"] = "secant"
-    damping_factor: Annotated[NonNegative, Field(le=2)] | DampingCurve
+    damping_factor: Annotated[
+        Annotated[DampingFactor, Tag("number")] | Annotated[DampingCurve, Tag("curve")],
+        Discriminator(
+            lambda value: "curve" if isinstance(value, dict | DampingCurve) else "number"
+        ),
+    ]
     load_frequency: Annotated[Positive, Field(le=100)] = Field(alias="load_frequency_hz")
 
     @model_validator(mode="after")
