@@ -99,7 +99,7 @@ FAULTS: dict[str, tuple[dict[str, Any], str, str]] = {
     "no loading": (layers(SAND, loading=None), "curve.loading", "required"),
     "unknown model": (layers({**SAND, "model": "api_snad"}), "layers.0.model", "api_sand"),
     "unknown key": (layers({**SAND, "phi": 30}), "layers.0.phi", "unknown key"),
-    "no layers": (layers(), "curve.layers", "at least 1"),
+    "no layers": (layers(), "springs.curve", "no layers"),
     "first layer below": (layers({**SAND, "top_m": 2}), "springs.curve", "top_m = 0"),
     "layers not rising": (layers(SAND, {**CLAY, "top_m": 0}), "springs.curve", "rise strictly"),
     "PISA under cycles": (layers(TILL, loading="cyclic"), "springs.curve", "monotonic"),
@@ -208,6 +208,11 @@ FAULTS: dict[str, tuple[dict[str, Any], str, str]] = {
         layers({**CLAY, "undrained_shear_strength_pa": True}),
         "undrained_shear_strength_pa",
         "true or false",
+    ),
+    "profile of words": (
+        layers({**CLAY, "undrained_shear_strength_pa": "soft"}),
+        "layers.0.undrained_shear_strength_pa",
+        "valid number",
     ),
     "boundaries not rising": (
         {"kind": "table", "file": "a.csv", "boundaries_m": [5, 3]},
@@ -332,11 +337,12 @@ PROFILE: TypeAdapter[Any] = TypeAdapter(DepthProfile)
     [
         (7.0, [7, 7, 7, 7, 7]),
         (3, [3, 3, 3, 3, 3]),
+        ("1.5e1", [15, 15, 15, 15, 15]),
         ({"at_mudline": 2, "gradient": 0.5}, [2, 2, 4, 7, 22]),
         ({"depth_m": [4, 10], "values": [1, 7]}, [1, 1, 1, 7, 7]),
         ({"depth_m": [2], "values": [5]}, [5, 5, 5, 5, 5]),
     ],
-    ids=["number", "integer", "line", "table", "one row"],
+    ids=["number", "integer", "without a sign", "line", "table", "one row"],
 )
 def test_profiles(data: Any, expected: list[float]) -> None:
     """A number, a line, or a table that is constant beyond its ends; above the mudline as at it."""

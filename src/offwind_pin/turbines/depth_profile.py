@@ -52,7 +52,7 @@ class DepthTable(Definition):
 
 
 def _number_as_line(value: Any) -> Any:
-    return {"at_mudline": value} if isinstance(value, int | float) else value
+    return value if isinstance(value, dict | Definition) else {"at_mudline": value}
 
 
 def _line_or_table(value: Any) -> str:

@@ -68,7 +68,7 @@ class PisaCoefficient(Definition):
 
 
 def _number_as_constant(value: Any) -> Any:
-    return {"constant": value} if isinstance(value, int | float) else value
+    return value if isinstance(value, dict | Definition) else {"constant": value}
 
 
 Coefficient = Annotated[PisaCoefficient, BeforeValidator(_number_as_constant)]

@@ -129,12 +129,12 @@ class LayeredGround(Definition):
 
     kind: Literal["layers"]
     loading: Literal["static", "cyclic"]
-    layers: Annotated[
-        tuple[Annotated[Layer, Field(discriminator="model")], ...], Field(min_length=1)
-    ]
+    layers: tuple[Annotated[Layer, Field(discriminator="model")], ...]
 
     @model_validator(mode="after")
     def _layers_fit(self) -> LayeredGround:
+        if not self.layers:
+            raise ValueError("there are no layers; give one at least, with top_m = 0")
         tops = [layer.top for layer in self.layers]
         if tops[0] != 0:
             raise ValueError(
