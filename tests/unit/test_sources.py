@@ -38,6 +38,7 @@ def test_a_missing_source_is_found(oc6: ow.Turbine) -> None:
     bare = oc6.model_copy(update={"site": oc6.site.model_copy(update={"source": None})})
     assert _unsourced(bare, "t", sourced=False) == [
         "t.site.water_depth",
+        "t.site.scour_depth",
         "t.site.water_density",
         "t.site.gravity",
     ]
