@@ -90,7 +90,11 @@ def _conic_curve(numbers: Array, y: float) -> tuple[float, float]:
         secant = 2 * (m * stiffness - n * x) / (half + root)
     else:
         secant = (root - half) / (2 * (n - m) * x)
-    tangent = (2 * n * x * (secant - 1) + m * stiffness * (1 - secant * x)) / root
+    # 1 - Y: near the plateau the difference would lose its digits
+    gap = 1 - secant * x
+    if line >= 1:
+        gap = 2 * n * (1 - x) ** 2 / (root + m * (line - 1) + 2 * n * (1 - x))
+    tangent = (2 * n * x * (secant - 1) + m * stiffness * gap) / root
     return secant * chord, tangent * chord
 
 
