@@ -56,8 +56,6 @@ def evaluate_loads(s: ChainArrays, row: Array) -> None:
 @kernel
 def commit(s: ChainArrays, q: Array) -> None:
     """End a step: what loads and root keep of their past becomes that of the state evaluated."""
-    if len(s.memory) == 0:
-        return
     for i in range(s.loads):
         points = slice(s.first_point[i], s.first_point[i + 1])
         past = s.memory[s.first_memory[i] : s.first_memory[i + 1]]

@@ -30,15 +30,7 @@ def factorise(s: ChainArrays, row: Array, by_v: float, by_a: float) -> None:
     """
     body_matrices(s, by_a)
     load_matrices(s, row, by_v, by_a)
-    last = len(s.rise)
-    for k in range(last, 0, -1):
-        first = s.roots + s.node_joints * (k - 1)
-        eliminate(s, k, first, s.node_joints, by_v)
-        for i in range(6):
-            for j in range(6):
-                s.articulated[k - 1, i, j] += s.articulated[k, i, j]
-    if s.roots > 0:
-        eliminate(s, 0, 0, s.roots, by_v)
+    eliminate(s, by_v)
 
 
 @kernel
@@ -93,58 +85,94 @@ def unstable_directions(s: ChainArrays) -> int:
 
 
 @kernel
-def eliminate(s: ChainArrays, k: int, first: int, count: int, by_v: float) -> None:
-    """Eliminate the joints below body k; its articulated matrix becomes what the parent feels."""
-    matrix = s.articulated[k]
-    force = (s.wrench[k, 0], s.wrench[k, 1], s.wrench[k, 2])
-    moment = (s.wrench[k, 3], s.wrench[k, 4], s.wrench[k, 5])
-    block = np.zeros((count, count))
-    for i in range(count):
-        dof = first + i
-        turning = axis_turn(s.joint[dof], force, moment)
-        for j in range(6):
-            s.joint_then[dof, j] = s.joint[dof, j]
-            s.carry[dof, j] = 0.0
-            s.follow[dof, j] = -turning[j]
-            for m in range(6):
-                s.carry[dof, j] += matrix[j, m] * s.joint[dof, m]
-                s.follow[dof, j] += matrix[m, j] * s.joint[dof, m]
-        for m in range(i):
+def eliminate(s: ChainArrays, by_v: float) -> None:
+    """Eliminate the joints from the top down; each body's matrix then holds all above it as well.
+
+    The loop is in here because a call with all the arrays costs as much as a node.
+    """
+    block, inverse, follow = np.empty((6, 6)), np.empty((6, 6)), np.empty((6, 6))
+    turning = np.empty(6)
+    for k in range(len(s.rise), -1, -1):
+        count = s.node_joints if k > 0 else s.roots
+        first = s.roots + s.node_joints * (k - 1) if k > 0 else 0
+        matrix = s.articulated[k]
+        force = (s.wrench[k, 0], s.wrench[k, 1], s.wrench[k, 2])
+        moment = (s.wrench[k, 3], s.wrench[k, 4], s.wrench[k, 5])
+        for i in range(count):
+            dof = first + i
+            axis_turn(s.joint[dof], force, moment, turning)
             for j in range(6):
-                block[i, m] -= turning[j] * s.joint[first + m, j]
-        block[i, i] += s.stiffness[dof] + by_v * s.damping[dof]
-    for i in range(count):
-        for m in range(count):
-            for j in range(6):
-                block[i, m] += s.joint[first + i, j] * s.carry[first + m, j]
-    if k == 0:
+                carry, back = 0.0, -turning[j]
+                for m in range(6):
+                    carry += matrix[j, m] * s.joint[dof, m]
+                    back += matrix[m, j] * s.joint[dof, m]
+                s.joint_then[dof, j] = s.joint[dof, j]
+                s.carry[dof, j], s.follow[dof, j] = carry, back
+            for m in range(count):
+                block[i, m] = 0.0
+            for m in range(i):
+                for j in range(6):
+                    block[i, m] -= turning[j] * s.joint[first + m, j]
+            block[i, i] += s.stiffness[dof] + by_v * s.damping[dof]
         for i in range(count):
             for m in range(count):
-                block[i, m] += s.root_stiffness[i, m] + by_v * s.root_damping[i, m]
-    inverse = np.linalg.inv(block)
-    follow = np.zeros((count, 6))
-    for i in range(count):
-        for m in range(count):
-            s.pivot[k, i, m] = inverse[i, m]
+                for j in range(6):
+                    block[i, m] += s.joint[first + i, j] * s.carry[first + m, j]
+                if k == 0:
+                    block[i, m] += s.root_stiffness[i, m] + by_v * s.root_damping[i, m]
+        invert(block, count, inverse)
+        for i in range(count):
             for j in range(6):
-                follow[i, j] += inverse[i, m] * s.follow[first + m, j]
-    for i in range(count):
-        for j in range(6):
-            s.follow[first + i, j] = follow[i, j]
-            for m in range(6):
-                matrix[m, j] -= s.carry[first + i, m] * follow[i, j]
+                follow[i, j] = 0.0
+            for m in range(count):
+                s.pivot[k, i, m] = inverse[i, m]
+                for j in range(6):
+                    follow[i, j] += inverse[i, m] * s.follow[first + m, j]
+        for i in range(count):
+            for j in range(6):
+                s.follow[first + i, j] = follow[i, j]
+                for m in range(6):
+                    matrix[m, j] -= s.carry[first + i, m] * follow[i, j]
+        if k > 0:
+            for i in range(6):
+                for j in range(6):
+                    s.articulated[k - 1, i, j] += matrix[i, j]
 
 
 @kernel
-def axis_turn(joint: Array, force: Vector, moment: Vector) -> Array:
-    """(6,) work of a held wrench on a joint's column, as the twist below turns that column."""
-    result = np.empty(6)
+def invert(block: Array, count: int, inverse: Array) -> None:
+    """Set the inverse of the leading part of a matrix, by cofactors where it is 3 x 3.
+
+    Raises
+    ------
+    LinAlgError : the part is singular
+    """
+    if count != 3:
+        inverse[:count, :count] = np.linalg.inv(block[:count, :count].copy())
+        return
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        for m in range(3):
+            n, o = (m + 1) % 3, (m + 2) % 3
+            inverse[m, i] = block[j, n] * block[k, o] - block[j, o] * block[k, n]
+    determinant = 0.0
+    for i in range(3):
+        determinant += block[0, i] * inverse[i, 0]
+    if determinant == 0:
+        raise np.linalg.LinAlgError("Matrix is singular to machine precision.")
+    for i in range(3):
+        for j in range(3):
+            inverse[i, j] /= determinant
+
+
+@kernel
+def axis_turn(joint: Array, force: Vector, moment: Vector, result: Array) -> None:
+    """Set (6,) work of a held wrench on a joint's column, as the twist below turns that column."""
     for i in range(3):
         j, k = (i + 1) % 3, (i + 2) % 3
         result[i] = joint[3 + j] * force[k] - joint[3 + k] * force[j]
         result[3 + i] = joint[j] * force[k] - joint[k] * force[j]
         result[3 + i] += joint[3 + j] * moment[k] - joint[3 + k] * moment[j]
-    return result
 
 
 @kernel
@@ -232,24 +260,32 @@ def load_matrices(s: ChainArrays, row: Array, by_v: float, by_a: float) -> None:
                 matrix[j, m] -= by_twist[j, m]
                 matrix[3 + j, m] -= place[n] * by_twist[o, m] - place[o] * by_twist[n, m]
         add_arm(matrix, place, row_of(s.force, i))
-        moment_matrix(s, i, by_v)
+        if has_entries(s.blocks[i, 4:]):
+            add_moment(matrix, s.blocks[i, 4:], place, s.rotation[k], by_v)
 
 
 @kernel
-def moment_matrix(s: ChainArrays, i: int, by_v: float) -> None:
-    """Take off the derivatives of the moment at a point, by its place, turn and spin.
+def has_entries(blocks: Array) -> bool:
+    """Whether any derivative of a point's moment is not zero."""
+    for entry in blocks.flat:
+        if entry != 0:
+            return True
+    return False
+
+
+@kernel
+def add_moment(matrix: Array, blocks: Array, place: Vector, turn: Array, by_v: float) -> None:
+    """Take off the derivatives (3, 3, 3) of a point's moment by its place, turn and spin.
 
     A rotation phi turns an orientation R by [phi] R, and its axial vector by (tr(R) - R) phi / 2.
     """
-    k, place = s.point_body[i], row_of(s.motion, i)
-    matrix, turn, blocks = s.articulated[k], s.rotation[k], s.blocks[i]
     trace = turn[0, 0] + turn[1, 1] + turn[2, 2]
     for j in range(3):
         for m in range(3):
             n, o = (m + 1) % 3, (m + 2) % 3
-            by_rotation = blocks[4, j, o] * place[n] - blocks[4, j, n] * place[o]
-            by_rotation += blocks[5, j, m] * trace / 2 + by_v * blocks[6, j, m]
+            by_rotation = blocks[0, j, o] * place[n] - blocks[0, j, n] * place[o]
+            by_rotation += blocks[1, j, m] * trace / 2 + by_v * blocks[2, j, m]
             for r in range(3):
-                by_rotation -= blocks[5, j, r] * turn[r, m] / 2
-            matrix[3 + j, m] -= blocks[4, j, m]
+                by_rotation -= blocks[1, j, r] * turn[r, m] / 2
+            matrix[3 + j, m] -= blocks[0, j, m]
             matrix[3 + j, 3 + m] -= by_rotation

@@ -37,7 +37,8 @@ def take_note(
     size: float,
 ) -> None:
     """End a step: keep its past, sum energies up to it, and write a record where one is due."""
-    commit(s, q)
+    if len(s.memory) > 0:
+        commit(s, q)
     add_energies(s, r, v, time - r.clock[0])
     r.clock[0] = time
     r.tally[0] += 1
