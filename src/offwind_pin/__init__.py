@@ -9,11 +9,13 @@
 
 from offwind_pin.analysis.build import build
 from offwind_pin.analysis.condensation import Condensation, condense
+from offwind_pin.analysis.identify import Identification, Parameter, identify_soil
 from offwind_pin.analysis.integrators import GeneralizedAlpha, SciPyIVP
 from offwind_pin.analysis.modal import ModalResult, modes
 from offwind_pin.analysis.pile import pile_only
 from offwind_pin.analysis.pushover import Pushover, pushover
 from offwind_pin.analysis.static import StaticResult, static
+from offwind_pin.analysis.targets import DeflectionTarget, FrequencyTarget, ShapeTarget
 from offwind_pin.analysis.transient import simulate
 from offwind_pin.campaign.export import export_urdf
 from offwind_pin.dynamics.sea import IrregularWaves, StillWater
@@ -28,16 +30,21 @@ from offwind_pin.turbines.reader import load_turbine, shipped_turbines
 __all__ = [
     "AdaptiveStep",
     "Condensation",
+    "DeflectionTarget",
     "FixedStep",
+    "FrequencyTarget",
     "GeneralizedAlpha",
+    "Identification",
     "InputError",
     "InterruptedSimulation",
     "IrregularWaves",
     "LoadHistory",
     "ModalResult",
     "OffwindError",
+    "Parameter",
     "Pushover",
     "SciPyIVP",
+    "ShapeTarget",
     "SolverError",
     "StaticResult",
     "StillWater",
@@ -47,6 +54,7 @@ __all__ = [
     "build",
     "condense",
     "export_urdf",
+    "identify_soil",
     "load_turbine",
     "modes",
     "pile_only",
