@@ -195,6 +195,8 @@ def test_bad_calls(undamped: ow.Turbine) -> None:
     target = FrequencyTarget("FA1", 0.24, 0.01)
     with pytest.raises(ow.InputError, match="one of each"):
         identify_soil(undamped, [], [GRADIENT])
+    with pytest.raises(ow.InputError, match="starts"):
+        identify_soil(undamped, [target], [GRADIENT], starts=0)
     with pytest.raises(ow.InputError, match="each path once"):
         identify_soil(undamped, [target], [GRADIENT, GRADIENT])
     wrong = Parameter(f"{CURVE}.initial_modulus.gradien", 1.0, 2.0)

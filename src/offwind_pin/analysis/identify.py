@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.optimize import least_squares
 from scipy.stats import chi2
+from scipy.stats.qmc import Halton
 
 from offwind_pin.analysis.definition_path import number_at, with_number
 from offwind_pin.analysis.targets import Responses, Target
@@ -29,7 +30,7 @@ _STEP = 1e-4
 """Of differences, in shares of a parameter's range."""
 _AT_BOUND = 1e-4
 """Distance from a bound, in shares of the range, within which the bound holds the parameter."""
-_TOLERANCE = 1e-8
+_TOLERANCE = 1e-6
 """Of the least squares: relative change of the sum, and of the parameters."""
 _ALONE = 0.99
 """Share of one parameter in a combination from which on the combination is called by its name."""
@@ -164,6 +165,7 @@ def identify_soil(
     sea: Sea | None = None,
     element: Element = "euler_bernoulli",
     elements: Elements = None,
+    starts: int = 1,
     progress: Callable[[int, float], None] | None = None,
 ) -> Identification:
     """Fit numbers of a definition to responses by bounded least squares over the model itself.
@@ -177,6 +179,8 @@ def identify_soil(
     targets : :class:`FrequencyTarget`, :class:`DeflectionTarget`, :class:`ShapeTarget`
     parameters : what to find; the rest of the definition stays
     foundation, sea, element, elements : the model, as for :func:`build`
+    starts : searches, of which the best is kept: the first from where the parameters start, further
+        ones from points spread over the ranges (Halton's sequence), against local minima
     progress : called with the number of models solved and half the sum of squares after each
 
     Raises
@@ -187,6 +191,8 @@ def identify_soil(
     if not targets or not parameters:
         given = f"{len(targets)} targets and {len(parameters)} parameters"
         raise InputError("identify_soil", given, "one of each at least", "Add what is missing.")
+    if starts < 1:
+        raise InputError("starts", starts, "1 or more", "Search once at least.")
     paths = [parameter.path for parameter in parameters]
     if len(set(paths)) < len(paths):
         raise InputError("parameters", paths, "each path once", "Remove the double.")
@@ -197,16 +203,10 @@ def identify_soil(
         lambda changed: Responses(changed, foundation, sea, element, elements),
         progress,
     )
-    result = least_squares(
-        fit.distances,
-        [_start(turbine, parameter) for parameter in parameters],
-        fit.forward_differences,
-        bounds=(0, 1),
-        method="trf",
-        ftol=_TOLERANCE,
-        xtol=_TOLERANCE,
-    )
-    return fit.outcome(np.clip(result.x, 0, 1))
+    first = np.array([_start(turbine, parameter) for parameter in parameters])
+    spread = Halton(len(parameters), scramble=False).random(starts)[1:]
+    searches = [fit.search(start) for start in (first, *spread)]
+    return fit.outcome(min(searches, key=fit.cost))
 
 
 def _start(turbine: Turbine, parameter: Parameter) -> float:
@@ -261,6 +261,23 @@ class _Fit:
             if self.progress is not None:
                 self.progress(self.evaluations, float(self._last[1] @ self._last[1]) / 2)
         return self._last[1]
+
+    def cost(self, shares: Array) -> float:
+        """Half the sum of the squared distances."""
+        return float(self.distances(shares) @ self.distances(shares)) / 2
+
+    def search(self, start: Array) -> Array:
+        """(p,) shares of the nearest minimum."""
+        result = least_squares(
+            self.distances,
+            start,
+            self.forward_differences,
+            bounds=(0, 1),
+            method="trf",
+            ftol=_TOLERANCE,
+            xtol=_TOLERANCE,
+        )
+        return np.clip(result.x, 0, 1)
 
     def forward_differences(self, shares: Array) -> Array:
         """(m, p) derivatives by the shares, good enough to walk by; steps lead inwards."""
