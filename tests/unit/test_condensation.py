@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import offwind_pin as ow
 from offwind_pin.analysis.condensation import condense
 from offwind_pin.analysis.pile import pile_part
+from offwind_pin.loads.tower_top import constant_load
 
 LOAD = np.array([6e6, 2e6, 0, 0, 0, 3e6])
 
@@ -131,3 +134,15 @@ def test_refusals(system: ow.System, loaded: ow.StaticResult, coupled_wet: ow.Sy
     soft = system.turbine.model_copy(update={"materials": {"steel": stiff}})
     with pytest.raises(ow.InputError, match="in balance"):
         condense(ow.build(soft, "distributed_springs"), loaded)
+
+
+def test_secants_of_rotational_springs_are_refused(
+    system: ow.System, loaded: ow.StaticResult
+) -> None:
+    """A soil that gives moments must not lose them in silence."""
+    foundation = system.foundation
+    turning = constant_load(-40.0, np.array([0, 0, 0, 0, 1.0, 0]))
+    turned = replace(system, foundation=replace(foundation, soil=(*foundation.soil, turning)))
+    assert condense(turned, loaded).stiffness[0, 0] > 0
+    with pytest.raises(ow.InputError, match="rotational springs"):
+        condense(turned, loaded, stiffness="secant")

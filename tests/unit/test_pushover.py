@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from helpers.piles import LongPile
@@ -10,6 +12,7 @@ import offwind_pin as ow
 from offwind_pin.analysis.condensation import condense
 from offwind_pin.analysis.pile import pile_only
 from offwind_pin.analysis.pushover import pushover
+from offwind_pin.turbines.definition import CurveTable
 
 RIGID = LongPile(length=20.0, thickness=0.5, youngs_modulus=1e13)
 RESISTANCE = 1e6  # N/m, constant with depth
@@ -114,3 +117,27 @@ def test_first_slope_is_the_condensed_flexibility(oc6: ow.Turbine) -> None:
 def test_bad_arguments(oc6: ow.Turbine, arguments: dict[str, float], where: str) -> None:
     with pytest.raises(ow.InputError, match=where):
         pushover(oc6, **arguments)  # type: ignore[arg-type]
+
+
+def test_tabulated_curves_beyond_their_last_point(oc6: ow.Turbine, tmp_path: Path) -> None:
+    """Straight pieces and a plateau: Newton's method meets the kinks, and past the plateau of every
+    spring, where the pile is a mechanism, the displacement still holds it.
+    """
+    table = tmp_path / "curves.csv"
+    rows = [
+        f"{depth},{y},{share * (1e6 + 1e6 * depth)}"
+        for depth in range(0, 46, 5)
+        for y, share in ((0.005, 0.3), (0.02, 0.6), (0.08, 0.9), (0.2, 1.0))
+    ]
+    table.write_text("\n".join(["depth_m,y_m,p_n_per_m", *rows]) + "\n")
+    springs = oc6.soil.distributed_springs
+    assert springs is not None
+    curve = CurveTable(kind="table", file=table)
+    soil = oc6.soil.model_copy(
+        update={"distributed_springs": springs.model_copy(update={"curve": curve})}
+    )
+    tabulated = oc6.model_copy(update={"soil": soil})
+    found = pushover(tabulated, 30.0, until_displacement=4.0, points=8)
+    assert found.displacement[-1] == pytest.approx(4.0, rel=1e-9)
+    assert found.load[-1] == pytest.approx(found.load[-2], rel=3e-3)
+    assert found.load[1] < 0.95 * found.load[-1]

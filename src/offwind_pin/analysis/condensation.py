@@ -85,7 +85,8 @@ def condense(
 
     Raises
     ------
-    InputError : a system without a pile, or a state of another system
+    InputError : a system without a pile, a state of another system, or secants of soil that
+        resists rotation by springs of its own
     """
     if stiffness not in get_args(CondensedStiffness):
         allowed = ", ".join(get_args(CondensedStiffness))
@@ -138,15 +139,27 @@ class SecantSprings:
 
     @staticmethod
     def of(springs: PointLoad, motion: PointMotion) -> SecantSprings:
-        """Secants of springs in a state; where a node has not moved, the tangents."""
-        force = springs.forces(0.0, motion, 0.0).force
+        """Secants of springs in a state, across and along the pile; where nothing moved, tangents.
+
+        Raises
+        ------
+        InputError : springs that resist rotation as well
+        """
+        forces = springs.forces(0.0, motion, 0.0)
+        if np.any(forces.moment):
+            raise InputError(
+                "stiffness",
+                f"'secant', and moments from {springs.name!r}",
+                "'tangent' for a soil with rotational springs",
+                "A secant of forces alone would leave them out.",
+            )
         tangents = springs.tangents(0.0, motion, 0.0).stiffness
-        stiffness = -np.diagonal(tangents, axis1=1, axis2=2)
-        moved = np.linalg.norm(motion.displacement[:, :2], axis=1)
-        along = moved > 0
-        secant = np.linalg.norm(force[along, :2], axis=1) / moved[along]
-        stiffness = stiffness.copy()
-        stiffness[along, :2] = secant[:, None]
+        stiffness = -np.diagonal(tangents, axis1=1, axis2=2).copy()
+        for directions in ([0, 1], [2]):
+            moved = np.linalg.norm(motion.displacement[:, directions], axis=1)
+            force = np.linalg.norm(forces.force[:, directions], axis=1)
+            some = moved > 0
+            stiffness[np.ix_(some, directions)] = (force[some] / moved[some])[:, None]
         return SecantSprings(springs.height, stiffness)
 
     def forces(self, time: float, motion: PointMotion, rise: float) -> PointForces:
