@@ -111,9 +111,7 @@ def test_coupled_springs_of_the_condensed_stiffness(
     The pile's own mass below the mudline is left out, which second modes feel a little.
     """
     state = ow.static(system)
-    springs = condense(system, state).coupled_springs()
-    soil = undamped.soil.model_copy(update={"coupled_springs": springs})
-    condensed = undamped.model_copy(update={"soil": soil})
+    condensed = condense(system, state).replacing_soil(undamped)
     whole = ow.modes(system, n=4, about=state)
     short = ow.modes(ow.build(condensed, "coupled_springs", ow.StillWater()), n=4)
     assert short.label == whole.label

@@ -13,8 +13,7 @@ from offwind_pin.dynamics.system import System
 from offwind_pin.errors import InputError
 from offwind_pin.loads.points import PointForces, PointLoad, PointMotion, PointTangents
 from offwind_pin.loads.tower_top import constant_load
-from offwind_pin.turbines.base import Array
-from offwind_pin.turbines.soil import CoupledSprings
+from offwind_pin.turbines.definition import Array, Turbine
 
 CondensedStiffness = Literal["tangent", "secant"]
 
@@ -61,10 +60,12 @@ class Condensation:
         difference = self.stiffness - self.stiffness.T
         return float(np.max(np.abs(difference) / np.outer(size, size)))
 
-    def coupled_springs(self) -> CoupledSprings:
-        """The symmetric part as a turbine's soil for the foundation ``"coupled_springs"``."""
-        source = f"{self.kind} stiffness of the distributed springs, condensed to the mudline"
-        return CoupledSprings(stiffness=self.symmetric.tolist(), source=source)
+    def replacing_soil(self, turbine: Turbine) -> Turbine:
+        """A turbine with the symmetric part as its soil's ``coupled_springs``."""
+        source = f"{self.kind} stiffness of distributed springs, condensed to the mudline"
+        springs = {"stiffness": self.symmetric.tolist(), "source": source}
+        soil = turbine.soil.model_validate({**dict(turbine.soil), "coupled_springs": springs})
+        return turbine.model_copy(update={"soil": soil})
 
 
 def condense(
