@@ -330,7 +330,7 @@ class _Fit:
             evaluations=self.evaluations,
             verdict="",
         )
-        return replace(outcome, verdict=in_words(outcome))
+        return replace(outcome, verdict=_in_words(outcome))
 
     def _parameter(
         self, i: int, share: float, covariance: Array, combinations: Array, singular: Array
@@ -378,7 +378,7 @@ def _unit(i: int, count: int) -> Array:
     return np.eye(count)[i]
 
 
-def in_words(outcome: Identification) -> str:
+def _in_words(outcome: Identification) -> str:
     """What the data determine, which bounds hold, and whether the targets are met."""
     lines = []
     names = [found.parameter.name for found in outcome.parameters]

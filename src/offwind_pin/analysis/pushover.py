@@ -27,8 +27,8 @@ _RELATIVE_TOLERANCE = 1e-10
 """Of the residual over the size of the loads."""
 _LARGEST_STEP = 0.2
 """Of a joint in rad or m, and of the load in its unit, within one iteration."""
-_MOST_ITERATIONS = 40
-_HALVINGS = 10
+_MOST_ITERATIONS = 25
+_HALVINGS = 8
 """How often a step that Newton's method cannot take is halved."""
 
 
