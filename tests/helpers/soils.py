@@ -24,7 +24,10 @@ def layered(turbine: ow.Turbine, nodes: int = 61) -> ow.Turbine:
                         "model": "pisa",
                         "calibration": "cowden_till",
                         "submerged_unit_weight_n_per_m3": 1.1e4,
-                        "undrained_shear_strength_pa": {"depth_m": [0, 11], "values": [80e3, 140e3]},
+                        "undrained_shear_strength_pa": {
+                            "depth_m": [0, 11],
+                            "values": [80e3, 140e3],
+                        },
                         "shear_modulus_pa": {"depth_m": [0, 11], "values": [20e6, 200e6]},
                     },
                     {
@@ -64,7 +67,10 @@ def layered(turbine: ow.Turbine, nodes: int = 61) -> ow.Turbine:
             },
             "toe_bearing": {"kind": "api", "end_bearing_pa": 5e6, "area_m2": 3.0},
             "dashpot": {
-                "damping_factor": {"displacement_m": [1e-4, 1e-2, 1e-1], "factor": [0.01, 0.05, 0.2]},
+                "damping_factor": {
+                    "displacement_m": [1e-4, 1e-2, 1e-1],
+                    "factor": [0.01, 0.05, 0.2],
+                },
                 "load_frequency_hz": 0.24,
             },
         }

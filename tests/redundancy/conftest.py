@@ -21,7 +21,9 @@ def _name(value: tuple[str, str]) -> str:
     return ", ".join(value)
 
 
-@pytest.fixture(scope="session", params=itertools.product((*FOUNDATIONS, *GROUNDS), ELEMENTS), ids=_name)
+@pytest.fixture(
+    scope="session", params=itertools.product((*FOUNDATIONS, *GROUNDS), ELEMENTS), ids=_name
+)
 def any_system(undamped: ow.Turbine, request: pytest.FixtureRequest) -> ow.System:
     """A coarse system on each foundation and ground, of each kind of element, in still water."""
     foundation, element = request.param

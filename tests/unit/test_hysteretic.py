@@ -1,5 +1,7 @@
 """Springs of parallel sliders: backbone, Masing's loops, heat that is never negative."""
 
+import itertools
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -55,9 +57,7 @@ def trace(load: HystereticSprings, path: Array, memory: Array) -> tuple[Array, f
 
 def along_x(*corners: float, steps: int = 200) -> Array:
     """(t, 2) from corner to corner."""
-    legs = [
-        np.linspace(a, b, steps + 1)[1:] for a, b in zip(corners[:-1], corners[1:], strict=True)
-    ]
+    legs = [np.linspace(a, b, steps + 1)[1:] for a, b in itertools.pairwise(corners)]
     x = np.concatenate(legs)
     return np.column_stack([x, np.zeros_like(x)])
 
@@ -163,7 +163,7 @@ def test_no_history_gives_energy_back(corners: list[tuple[float, float]]) -> Non
     """Heat is never negative (asserted in ``trace``); work is stored or heat, by the first law."""
     points = BEND * np.array([(0.0, 0.0), *corners])
     steps = 60
-    legs = [np.linspace(a, b, steps + 1)[1:] for a, b in zip(points[:-1], points[1:], strict=True)]
+    legs = [np.linspace(a, b, steps + 1)[1:] for a, b in itertools.pairwise(points)]
     path = np.concatenate(legs)
     load = springs(12)
     memory = np.zeros(load.memory_size)

@@ -1,5 +1,7 @@
 """The macro-element: small stiffness, backbone, loops, heat, directions, tangents."""
 
+import itertools
+
 import numpy as np
 import pytest
 from helpers.numerics import relative_difference
@@ -162,9 +164,7 @@ def test_work_is_stored_or_heat(corners: list[tuple[float, float, float]]) -> No
     """Along any path; heat is never negative (asserted in ``trace``)."""
     element = MacroElement.along(STIFFNESS, *path())
     points = np.array([STILL, *([u, w, 0, 0, turn, 0] for u, turn, w in corners)])
-    way = np.concatenate(
-        [np.linspace(a, b, 81)[1:] for a, b in zip(points[:-1], points[1:], strict=True)]
-    )
+    way = np.concatenate([np.linspace(a, b, 81)[1:] for a, b in itertools.pairwise(points)])
     memory = np.zeros(element.memory_size)
     reactions, heat = trace(element, way, memory)
     whole, steps = np.vstack([STILL, reactions]), np.diff(np.vstack([STILL, way]), axis=0)

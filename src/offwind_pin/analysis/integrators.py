@@ -104,7 +104,7 @@ class GeneralizedAlpha:
 
     policy: StepPolicy
     spectral_radius: float = 0.9
-    relative_tolerance: float = 1e-6
+    relative_tolerance: float = 1e-5
     increment_tolerance: float = 1e-8
 
     def __post_init__(self) -> None:

@@ -267,10 +267,7 @@ def load_matrices(s: ChainArrays, row: Array, by_v: float, by_a: float) -> None:
 @kernel
 def has_entries(blocks: Array) -> bool:
     """Whether any derivative of a point's moment is not zero."""
-    for entry in blocks.flat:
-        if entry != 0:
-            return True
-    return False
+    return any(entry != 0 for entry in blocks.flat)
 
 
 @kernel

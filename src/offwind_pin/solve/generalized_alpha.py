@@ -62,10 +62,10 @@ class Method(NamedTuple):
     step: float
     spectral_radius: float
     scale: float
-    relative_tolerance: float = 1e-6
+    relative_tolerance: float = 1e-5
     increment_tolerance: float = 1e-8
     max_iterations: int = 25
-    slow: float = 0.05
+    slow: float = 0.02
 
 
 CONVERGED, DIVERGED, NOT_FINITE = 0, 1, 2
