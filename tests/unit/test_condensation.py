@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
+from helpers.soils import hysteretic, layered
 
 import offwind_pin as ow
 from offwind_pin.analysis.condensation import condense
 from offwind_pin.analysis.pile import pile_part
-from offwind_pin.loads.tower_top import constant_load
 
 LOAD = np.array([6e6, 2e6, 0, 0, 0, 3e6])
 
@@ -134,13 +132,32 @@ def test_refusals(system: ow.System, loaded: ow.StaticResult, coupled_wet: ow.Sy
         condense(ow.build(soft, "distributed_springs"), loaded)
 
 
-def test_secants_of_rotational_springs_are_refused(
-    system: ow.System, loaded: ow.StaticResult
-) -> None:
-    """A soil that gives moments must not lose them in silence."""
-    foundation = system.foundation
-    turning = constant_load(-40.0, np.array([0, 0, 0, 0, 1.0, 0]))
-    turned = replace(system, foundation=replace(foundation, soil=(*foundation.soil, turning)))
-    assert condense(turned, loaded).stiffness[0, 0] > 0
-    with pytest.raises(ow.InputError, match="rotational springs"):
-        condense(turned, loaded, stiffness="secant")
+def test_secants_take_rotational_springs_along(oc6: ow.Turbine) -> None:
+    """In clay and sand by PISA the secant stiffness times the displacement is the load, moments and
+    all, but for the weight on the tilt; without the rotational springs it is not."""
+    pisa = layered(oc6.model_copy(update={"structural_damping": None}))
+    whole = ow.build(pisa, "distributed_springs")
+    state = ow.static(whole, np.array([4e6, 0, 0, 0, 0, 0]))
+    names = {load.name for load in whole.foundation.soil}
+    assert {"soil_rocking", "soil_friction", "soil_base_moment"} <= names
+    found = condense(whole, state, stiffness="secant")
+    pushed = (found.stiffness @ found.displacement)[[0, 4]]
+    assert pushed == pytest.approx(found.load[[0, 4]], rel=0.02)
+    assert found.stiffness[4, 4] > 1.02 * condense(whole, state).stiffness[4, 4]
+
+
+def test_small_motions_about_a_held_load_see_sliders_unyielded(oc6: ow.Turbine) -> None:
+    """The tangent of hysteretic springs in a loaded state is that of the unloaded ones."""
+    undamped = oc6.model_copy(update={"structural_damping": None})
+    elastic, sliding = (
+        ow.build(turbine, "distributed_springs") for turbine in (undamped, hysteretic(undamped, 60))
+    )
+    load = np.array([4e6, 0, 0, 0, 0, 0])
+    held = condense(sliding, ow.static(sliding, load)).stiffness
+    unloaded = condense(elastic, ow.static(elastic)).stiffness
+    going_on = condense(elastic, ow.static(elastic, load)).stiffness
+    assert held[0, 0] == pytest.approx(unloaded[0, 0], rel=5e-3)
+    assert going_on[0, 0] < 0.9 * held[0, 0]
+    secant = condense(sliding, ow.static(sliding, load), stiffness="secant").stiffness
+    expected = condense(elastic, ow.static(elastic, load), stiffness="secant").stiffness
+    assert secant[0, 0] == pytest.approx(expected[0, 0], rel=5e-3)

@@ -9,9 +9,19 @@ import numpy as np
 
 from offwind_pin.analysis.pile import axis_jacobian, pile_part
 from offwind_pin.analysis.static import StaticResult, load_scale, static
+from offwind_pin.dynamics.equations import split_memory
+from offwind_pin.dynamics.restraints import as_kernel_restraint
 from offwind_pin.dynamics.system import System
 from offwind_pin.errors import InputError
-from offwind_pin.loads.points import PointForces, PointLoad, PointMotion, PointTangents
+from offwind_pin.loads.points import (
+    BY_POSITION,
+    MOMENT_BY_TURN,
+    KernelLoad,
+    PointForces,
+    PointLoad,
+    PointMotion,
+    PointTangents,
+)
 from offwind_pin.loads.tower_top import constant_load
 from offwind_pin.turbines.definition import Array, Turbine
 
@@ -86,8 +96,7 @@ def condense(
 
     Raises
     ------
-    InputError : a system without a pile, a state of another system, or secants of soil that
-        resists rotation by springs of its own
+    InputError : a system without a pile, or a state of another system
     """
     if stiffness not in get_args(CondensedStiffness):
         allowed = ", ".join(get_args(CondensedStiffness))
@@ -99,16 +108,17 @@ def condense(
     q, rest = about.q[: pile.nv], np.zeros(pile.nv)
     load = about.mudline_load
     acting = [constant_load(pile.chain.top, load)]
-    equations = pile.equations(acting, ramp_time=np.inf)
+    equations = pile.equations(acting, np.inf, about.memory)
     lack = float(np.max(np.abs(equations.residual(0.0, q, rest, rest)))) / load_scale(system)
     if lack > _OUT_OF_BALANCE:
         allowed = "a static state of this system, in balance"
         raise InputError("about", f"{lack:.2g} of the loads", allowed, "Solve statics anew.")
     if stiffness == "secant":
-        motion = equations.chain_motion(q, rest)
+        motion, soil = equations.chain_motion(q, rest), pile.foundation.soil
+        memories = split_memory(soil, as_kernel_restraint(pile.foundation.root), about.memory)
         soil = tuple(
-            SecantSprings.of(spring, motion.points_at(spring.height))
-            for spring in pile.foundation.soil
+            SecantSprings.of(springs, motion.points_at(springs.height), past)
+            for springs, past in zip(soil, memories[:-1], strict=True)
         )
         pile = replace(pile, foundation=replace(pile.foundation, soil=soil))
         equations = pile.equations(acting, ramp_time=np.inf)
@@ -126,50 +136,54 @@ def condense(
 
 @dataclass(frozen=True, eq=False)
 class SecantSprings:
-    """Linear springs in place of nonlinear ones, with the same forces in one state.
+    """Linear springs in place of nonlinear ones, with the same forces and moments in one state.
 
     Attributes
     ----------
     height : (n,) of the nodes in m
     stiffness : (n, 3) along x, y and z in N/m
+    rotational : (n, 3) about x, y and z in N m/rad
     """
 
     height: Array
     stiffness: Array
+    rotational: Array
     name: str = "secant soil"
 
     @staticmethod
-    def of(springs: PointLoad, motion: PointMotion) -> SecantSprings:
-        """Secants of springs in a state, across and along the pile; where nothing moved, tangents.
-
-        Raises
-        ------
-        InputError : springs that resist rotation as well
-        """
-        forces = springs.forces(0.0, motion, 0.0)
-        if np.any(forces.moment):
-            raise InputError(
-                "stiffness",
-                f"'secant', and moments from {springs.name!r}",
-                "'tangent' for a soil with rotational springs",
-                "A secant of forces alone would leave them out.",
-            )
-        tangents = springs.tangents(0.0, motion, 0.0).stiffness
-        stiffness = -np.diagonal(tangents, axis1=1, axis2=2).copy()
-        for directions in ([0, 1], [2]):
-            moved = np.linalg.norm(motion.displacement[:, directions], axis=1)
-            force = np.linalg.norm(forces.force[:, directions], axis=1)
-            some = moved > 0
-            stiffness[np.ix_(some, directions)] = (force[some] / moved[some])[:, None]
-        return SecantSprings(springs.height, stiffness)
+    def of(springs: PointLoad, motion: PointMotion, memory: Array) -> SecantSprings:
+        """Secants of springs in a state, across and along the pile; tangents at rest."""
+        past = {"memory": memory} if isinstance(springs, KernelLoad) else {}
+        forces = springs.forces(0.0, motion, 0.0, **past)
+        blocks = springs.tangents(0.0, motion, 0.0, **past).blocks()
+        turn = np.zeros_like(motion.axis) if motion.turn is None else motion.turn
+        return SecantSprings(
+            springs.height,
+            _secants(forces.force, motion.displacement, blocks[:, BY_POSITION]),
+            _secants(forces.moment, turn, blocks[:, MOMENT_BY_TURN]),
+        )
 
     def forces(self, time: float, motion: PointMotion, rise: float) -> PointForces:
-        return PointForces(-self.stiffness * motion.displacement, np.zeros_like(self.stiffness))
+        turn = np.zeros_like(motion.axis) if motion.turn is None else motion.turn
+        return PointForces(-self.stiffness * motion.displacement, -self.rotational * turn)
 
     def tangents(self, time: float, motion: PointMotion, rise: float) -> PointTangents:
-        tangents = PointTangents.zeros(len(self.height))
-        tangents.stiffness[:] = -self.stiffness[:, :, None] * np.eye(3)
-        return tangents
+        return replace(
+            PointTangents.zeros(len(self.height)),
+            stiffness=-self.stiffness[:, :, None] * np.eye(3),
+            moment_stiffness=-self.rotational[:, :, None] * np.eye(3),
+        )
+
+
+def _secants(pull: Array, moved: Array, tangents: Array) -> Array:
+    """(n, 3) pull over deflection, both (n, 3), horizontal parts together."""
+    result = -np.diagonal(tangents, axis1=1, axis2=2).copy()
+    for directions in ([0, 1], [2]):
+        distance = np.linalg.norm(moved[:, directions], axis=1)
+        size = np.linalg.norm(pull[:, directions], axis=1)
+        some = distance > 0
+        result[np.ix_(some, directions)] = (size[some] / distance[some])[:, None]
+    return result
 
 
 def _displacement(pile: System, about: StaticResult) -> Array:

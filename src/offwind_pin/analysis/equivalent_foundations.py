@@ -7,6 +7,7 @@ unloaded distributed springs; the macro-element also follows a monotonic loading
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import numpy as np
 
@@ -72,7 +73,7 @@ def apparent_fixity(turbine: Turbine) -> Foundation:
             "point_masses": tuple(m for m in turbine.point_masses if m.z >= mudline),
         }
     )
-    facts = {
+    facts: dict[str, object] = {
         "apparent_fixity": {
             "length_m": length,
             "bending_stiffness_nm2": bending,
@@ -131,9 +132,11 @@ def macro_element(turbine: Turbine) -> Foundation:
     """
     calibration = turbine.soil.macro_element or MacroElementCalibration()
     arm = _arm(turbine, calibration.load_arm)
+    source: StiffnessSource = (
+        "distributed_springs" if calibration.file is None else "coupled_springs"
+    )
     if calibration.file is not None:
-        load, displacement, rotation = _read_path(calibration)
-        stiffness, source = given_stiffness(turbine), "coupled_springs"
+        load, displacement, rotation = _read_path(calibration.file)
     else:
         mudline = turbine.site.mudline
         diameter = float(outer_diameter(turbine, np.array([mudline]))[0])
@@ -141,7 +144,7 @@ def macro_element(turbine: Turbine) -> Foundation:
         at = np.geomspace(_FIRST_SHARE * furthest, furthest, calibration.surfaces)
         pushed = pushover(_undamped(turbine), arm, displacements=at)
         load, displacement, rotation = pushed.load[1:], pushed.displacement[1:], pushed.rotation[1:]
-        stiffness, source = condensed_stiffness(turbine), "distributed_springs"
+    stiffness = mudline_stiffness(turbine, source)
     element = MacroElement.along(stiffness, displacement, rotation, load, arm * load)
     return Foundation(
         "macro_element",
@@ -206,9 +209,8 @@ def _surrogate(turbine: Turbine, source: StiffnessSource | None) -> str | None:
     return springs.surrogate if springs is not None and condensed else None
 
 
-def _read_path(calibration: MacroElementCalibration) -> tuple[Array, Array, Array]:
-    """Load in N, displacement in m and rotation in rad of a monotonic loading, from its file."""
-    assert calibration.file is not None
-    rows = np.array([row for _, row in read_numbers(calibration.file, _COLUMNS)])
-    started = np.any(rows != 0, axis=1)
-    return tuple(rows[started].T)  # type: ignore[return-value]
+def _read_path(file: Path) -> tuple[Array, Array, Array]:
+    """Load in N, displacement in m and rotation in rad of a loading, without its start."""
+    rows = np.array([row for _, row in read_numbers(file, _COLUMNS)])
+    load, displacement, rotation = rows[np.any(rows != 0, axis=1)].T
+    return load, displacement, rotation

@@ -15,7 +15,7 @@ from offwind_pin.loads.tower_top import constant_load
 from offwind_pin.solve.newton import newton
 from offwind_pin.turbines.definition import Array
 
-RELATIVE_TOLERANCE = 1e-12
+RELATIVE_TOLERANCE = 1e-11
 """Largest entry of the residual over :func:`load_scale`."""
 
 

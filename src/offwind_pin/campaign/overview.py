@@ -94,7 +94,7 @@ def overview(turbine: Turbine) -> Overview:
         mudline_m=mudline,
         toe_m=turbine.toe,
         yaw_bearing_m=turbine.yaw_bearing,
-        water_depth_m=turbine.site.water_depth,
+        water_depth_m=-turbine.site.mudline,
         embedded_length_m=mudline - turbine.toe,
         members=[_member_facts(turbine, member) for member in turbine.members],
         rna_mass_kg=rna.mass,

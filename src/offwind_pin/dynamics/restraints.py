@@ -190,7 +190,7 @@ _FREE = LinearRestraint(np.zeros((6, 6)), np.zeros((6, 6)))
 
 
 def as_kernel_restraint(root: RootRestraint | None) -> KernelRestraint:
-    """The restraint itself if its physics is compiled already, else wrapped; of none, a void one."""
+    """The restraint itself if its physics is compiled, else wrapped; of none, a void one."""
     if root is None:
         return _FREE
     return root if isinstance(root, KernelRestraint) else PythonRestraint(root)

@@ -19,9 +19,7 @@ class StillWater:
 
     def realise(self, turbine: Turbine) -> IrregularSea:
         nothing = np.zeros(0)
-        return IrregularSea(
-            nothing, nothing, nothing, turbine.site.water_depth, turbine.site.gravity
-        )
+        return IrregularSea(nothing, nothing, nothing, -turbine.site.mudline, turbine.site.gravity)
 
 
 @dataclass(frozen=True)
@@ -51,7 +49,7 @@ class IrregularWaves:
         return IrregularSea.pierson_moskowitz(
             self.significant_height,
             self.peak_period,
-            depth=turbine.site.water_depth,
+            depth=-turbine.site.mudline,
             gravity=turbine.site.gravity,
             repeat_period=self.repeat_period,
             seed=self.seed,

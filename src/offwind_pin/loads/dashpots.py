@@ -37,8 +37,8 @@ class Dashpot:
     Attributes
     ----------
     deflection : (b,) rising, in m (or rad), for the ratios
-    secant_time : (b,) beta_s / (pi f_load) in s, times the secant stiffness; one for all deflections
-    initial_time : the same, times the initial stiffness
+    secant_time : (b,) beta_s / (pi f_load) in s there, times the secant stiffness
+    initial_time : the same for all deflections, times the initial stiffness
     """
 
     deflection: Array

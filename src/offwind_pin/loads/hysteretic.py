@@ -1,8 +1,8 @@
 """Hysteretic soil springs: parallel elastic-plastic sliders, after Iwan (1966).
 
-A slider is a spring that yields in the direction of its pull once stretched by its yield deflection.
-Sliders in parallel follow the backbone on first loading and Masing's rule on unloading; what they
-dissipate depends on the path and not on its rate.
+A slider is a spring that yields in the direction of its pull, once stretched by its yield
+deflection. Sliders in parallel follow the backbone on first loading and Masing's rule on unloading;
+what they dissipate depends on the path and not on its rate.
 """
 
 from __future__ import annotations
@@ -190,11 +190,9 @@ def sliders_of(curves: SoilCurves, count: int) -> tuple[Array, Array]:
         if np.isinf(ultimate):
             stiffness[i, 0] = resistance[0, i] / _SEARCHED[0]
             continue
-        ends = [
-            _SEARCHED[min(np.searchsorted(resistance[:, i], share * ultimate), len(_SEARCHED) - 1)]
-            for share in (_FIRST_SHARE, _LAST_SHARE)
-        ]
-        y = np.geomspace(*ends, count)
+        shares = np.array([_FIRST_SHARE, _LAST_SHARE]) * ultimate
+        ends = np.minimum(np.searchsorted(resistance[:, i], shares), len(_SEARCHED) - 1)
+        y = np.geomspace(_SEARCHED[ends[0]], _SEARCHED[ends[1]], count)
         p = np.array([curves.resistance(np.full(n, value))[i] for value in y])
         slope = np.diff(p, prepend=0.0) / np.diff(y, prepend=0.0)
         fall = -np.diff(slope, append=0.0)

@@ -73,8 +73,9 @@ def pile_soil(
             loads.append(_springs(springs, ground, "soil_rocking", ROCKING, *parts))
         if np.any(rocking.by_lateral):
             at = rocking.by_lateral
-            curves = SoilCurves(lateral.numbers[at]), SoilCurves(rocking.curves.numbers[at])
-            loads.append(FrictionalMoment(height[at], length[at], *curves))
+            pressure = SoilCurves(lateral.numbers[at])
+            lever = SoilCurves(rocking.curves.numbers[at])
+            loads.append(FrictionalMoment(height[at], length[at], pressure, lever))
     for name, direction, curve in _toe_curves(springs, ground):
         loads.append(_springs(springs, ground, name, direction, toe, whole, curve))
     for name, direction, shaft in (

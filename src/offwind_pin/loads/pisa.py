@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from offwind_pin.errors import InputError
 from offwind_pin.loads.ground import Ground
@@ -29,7 +30,7 @@ class RockingCurves:
     """
 
     curves: SoilCurves
-    by_lateral: Array
+    by_lateral: NDArray[np.bool_]
 
 
 def pisa_lateral(layer: Pisa, ground: Ground, stress: Array) -> SoilCurves:

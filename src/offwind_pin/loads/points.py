@@ -96,8 +96,8 @@ class PointMotion:
     spin: Array | None = None
 
     def __getitem__(self, part: slice) -> PointMotion:
-        parts = (getattr(self, item.name) for item in fields(self))
-        return PointMotion(*(None if value is None else value[part] for value in parts))
+        given = {item.name: getattr(self, item.name) for item in fields(self)}
+        return PointMotion(**{k: value[part] for k, value in given.items() if value is not None})
 
     def columns(self) -> Array:
         """(n, 21) all of it side by side, as kernels see it."""

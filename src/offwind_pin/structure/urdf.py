@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import xml.etree.ElementTree as ET
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,8 @@ from offwind_pin.structure.chain import Chain
 from offwind_pin.structure.meshes import Mesh, body_meshes
 from offwind_pin.structure.rotor import rna_meshes
 from offwind_pin.structure.section import outer_diameter
-from offwind_pin.turbines.definition import Array, CurveTable, Turbine
+from offwind_pin.turbines.base import Array, with_paths
+from offwind_pin.turbines.definition import Turbine
 
 _AXIS = {"x": "1 0 0", "y": "0 1 0", "z": "0 0 1"}
 _YELLOW, _WHITE = "0.93 0.77 0.20 1", "0.88 0.89 0.90 1"
@@ -109,16 +111,9 @@ def write_sidecar(
 
 
 def definition_hash(turbine: Turbine) -> str:
-    """SHA-256 of the definition's JSON and of the table of soil curves that it names, if any."""
-    digest = hashlib.sha256(turbine.model_dump_json(exclude={"soil"}).encode())
-    springs = turbine.soil.distributed_springs
-    if springs is not None and isinstance(springs.curve, CurveTable):
-        digest.update(springs.curve.file.read_bytes())
-        exclude = {"distributed_springs": {"curve": {"file"}}}
-        digest.update(turbine.soil.model_dump_json(exclude=exclude).encode())
-    else:
-        digest.update(turbine.soil.model_dump_json().encode())
-    return digest.hexdigest()
+    """SHA-256 of the definition's JSON, files in it by their contents and not by their names."""
+    whole = with_paths(turbine, lambda file: Path(hashlib.sha256(file.read_bytes()).hexdigest()))
+    return hashlib.sha256(whole.model_dump_json().encode()).hexdigest()
 
 
 def _materials(robot: ET.Element) -> None:

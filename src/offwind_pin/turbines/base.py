@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from collections.abc import Callable
+from pathlib import Path
+from typing import Annotated, Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,3 +34,20 @@ class Definition(BaseModel):
     )
 
     source: str | None = Field(default=None, description="where the numbers come from")
+
+
+Kind = TypeVar("Kind", bound=Definition)
+
+
+def with_paths(definition: Kind, change: Callable[[Path], Path]) -> Kind:
+    """A copy with every path in it, at whatever depth, changed."""
+    changed = {}
+    for name in type(definition).model_fields:
+        old = new = getattr(definition, name)
+        if isinstance(old, Path):
+            new = change(old)
+        elif isinstance(old, Definition):
+            new = with_paths(old, change)
+        if new is not old:
+            changed[name] = new
+    return definition.model_copy(update=changed) if changed else definition

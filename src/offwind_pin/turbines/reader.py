@@ -12,8 +12,8 @@ from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
 from offwind_pin.errors import InputError
+from offwind_pin.turbines.base import with_paths
 from offwind_pin.turbines.definition import Turbine
-from offwind_pin.turbines.soil import BearingTable, CurveTable, ShaftTable, TorsionTable
 
 Model = TypeVar("Model", bound=BaseModel)
 Schema = dict[str, Any]
@@ -42,7 +42,7 @@ def load_turbine(name_or_path: str | Path) -> Turbine:
     """
     path = find_definition(name_or_path, shipped_turbines(), "turbine")
     turbine = read_model(path, Turbine)
-    return _with_absolute_paths(turbine, path.parent)
+    return with_paths(turbine, lambda file: (path.parent / file).absolute())
 
 
 def find_definition(name_or_path: str | Path, shipped: list[str], kind: str) -> Path:
@@ -226,21 +226,3 @@ def _choices(schema: Schema, node: Schema, having: str = "properties") -> list[S
     alternatives = node.get("anyOf", []) + node.get("oneOf", [])
     found = [choice for below in alternatives for choice in _choices(schema, below, having)]
     return [*found, node] if having in node else found
-
-
-def _with_absolute_paths(turbine: Turbine, folder: Path) -> Turbine:
-    """File names inside a definition are relative to that definition."""
-    springs = turbine.soil.distributed_springs
-    if springs is None:
-        return turbine
-    curves = {
-        name: curve.model_copy(update={"file": (folder / curve.file).absolute()})
-        for name in ("curve", "vertical", "torsional", "toe_bearing")
-        if isinstance(
-            curve := getattr(springs, name), CurveTable | ShaftTable | TorsionTable | BearingTable
-        )
-    }
-    springs = springs.model_copy(update=curves)
-    return turbine.model_copy(
-        update={"soil": turbine.soil.model_copy(update={"distributed_springs": springs})}
-    )
