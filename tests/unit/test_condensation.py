@@ -157,7 +157,7 @@ def test_small_motions_about_a_held_load_see_sliders_unyielded(oc6: ow.Turbine) 
     unloaded = condense(elastic, ow.static(elastic)).stiffness
     going_on = condense(elastic, ow.static(elastic, load)).stiffness
     assert held[0, 0] == pytest.approx(unloaded[0, 0], rel=5e-3)
-    assert going_on[0, 0] < 0.9 * held[0, 0]
+    assert going_on[0, 0] < 0.96 * held[0, 0]
     secant = condense(sliding, ow.static(sliding, load), stiffness="secant").stiffness
     expected = condense(elastic, ow.static(elastic, load), stiffness="secant").stiffness
     assert secant[0, 0] == pytest.approx(expected[0, 0], rel=5e-3)

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 import offwind_pin as ow
 from offwind_pin.analysis import transient
 from offwind_pin.dynamics.compiled_chain import CompiledChain
+from offwind_pin.dynamics.restraints import LinearRestraint
 from offwind_pin.loads.points import PointForces, PointMotion, PointTangents
 from offwind_pin.turbines.definition import Turbine
 
@@ -38,7 +39,7 @@ class Swing:
         return PointTangents.zeros(1)
 
 
-def with_memory(undamped: Turbine, name: str, elements: int = 16) -> ow.System:
+def with_memory(undamped: Turbine, name: str, elements: int | None = 16) -> ow.System:
     """A system on hysteretic springs or on a macro-element, in still water."""
     if name == "hysteretic":
         return ow.build(
@@ -52,10 +53,12 @@ def system(undamped: Turbine, request: pytest.FixtureRequest) -> ow.System:
     return with_memory(undamped, request.param)
 
 
-def test_first_loading_is_that_of_the_elastic_springs(system: ow.System, undamped: Turbine) -> None:
+@pytest.mark.parametrize("name", ["hysteretic", "macro_element"])
+def test_first_loading_is_that_of_the_elastic_springs(undamped: Turbine, name: str) -> None:
     """Sliders and macro-element follow the curves that they were made from, within 1 %."""
-    elastic = ow.build(undamped, "distributed_springs", ow.StillWater(), elements=16)
-    for share in (0.05, 0.3, 1.0):
+    elastic = ow.build(undamped, "distributed_springs", ow.StillWater())
+    system = with_memory(undamped, name, None)
+    for share in (-0.3, 0.1, 0.3, 1.0):
         expected = ow.static(elastic, share * STRONG).mudline_displacement[0]
         found = ow.static(system, share * STRONG).mudline_displacement[0]
         assert found == pytest.approx(expected, rel=0.01)
@@ -64,17 +67,27 @@ def test_first_loading_is_that_of_the_elastic_springs(system: ow.System, undampe
 def test_modes_about_a_held_load_are_those_of_small_motions(system: ow.System) -> None:
     """Small motions do not yield, however large the load that is held."""
     free, held = ow.modes(system, 4), ow.modes(system, 4, ow.static(system, STRONG))
-    assert held.frequency_hz == pytest.approx(free.frequency_hz, rel=2e-3)
-    elastic = ow.static(system, STRONG)
-    assert np.any(elastic.memory != 0)
+    assert held.frequency_hz == pytest.approx(free.frequency_hz, rel=4e-3)
+    assert np.any(ow.static(system, STRONG).memory != 0)
 
 
 def test_static_loops_close(system: ow.System) -> None:
-    """Load, reversal, load: the mudline comes back to where it was, and remains off when unloaded."""
+    """Between two loads the mudline comes back to where it was, and remains off when unloaded.
+
+    The first time it has another past: with the assembly's overhang the reversed load is the larger.
+    The macro-element's translation and rotation do not rise in proportion, so that what it has
+    slipped by depends a little on the size of the steps.
+    """
     loaded = ow.static(system, STRONG)
-    reversed_ = ow.static(system, -STRONG, after=loaded)
-    again = ow.static(system, STRONG, after=reversed_)
-    assert again.mudline_displacement == pytest.approx(loaded.mudline_displacement, rel=1e-6)
+    states = [loaded]
+    for sign in (-1, 1, -1, 1):
+        states.append(ow.static(system, sign * STRONG, after=states[-1]))
+    place = [state.mudline_displacement for state in states]
+    proportional = isinstance(system.foundation.root, LinearRestraint)
+    closed = 1e-9 if proportional else 1e-3
+    assert place[4] == pytest.approx(place[2], rel=closed)
+    assert place[3] == pytest.approx(place[1], rel=closed)
+    assert place[2] == pytest.approx(place[0], rel=5e-3)
     free = ow.static(system)
     unloaded = ow.static(system, 0 * STRONG, after=loaded)
     left = unloaded.mudline_displacement[0] - free.mudline_displacement[0]
@@ -123,9 +136,10 @@ def test_forgotten_slips_are_seen(
     """Negative control: sliders that start every block anew lose heat, and the ledger shows it."""
     honest = swung(system, 0.02)
     monkeypatch.setattr(transient, "_BLOCK_SECONDS", 1.0)
-    monkeypatch.setattr(
-        CompiledChain, "memory", property(lambda self: 0 * self.arrays.memory, lambda *_: None)
+    forgetting = property(
+        lambda self: self.arrays.memory.copy(), lambda self, _: self.arrays.memory.fill(0)
     )
+    monkeypatch.setattr(CompiledChain, "memory", forgetting)
     forgetful = swung(system, 0.02)
     balance = [float(np.abs(h["energy_balance"]).max()) for h in (honest, forgetful)]
     assert balance[1] > 3 * balance[0]
