@@ -35,7 +35,7 @@ DT, EVERY = 0.02, 2
 SAME_RESIDUAL = 1e-12
 LARGEST_COMPARED = 80
 """Elements up to which Pinocchio's whole scratch data is made, to compare with."""
-CONVERGED = 1e-6
+CONVERGED = 1e-5
 CALLS = "motion", "loads", "balance", "solution", "factorisation", "notes", "idle"
 PAIRS_ALLOWED, PAIRS_AT = 3.0, 80
 EXPONENT_ALLOWED, EXPONENT_FROM = 1.2, 40

@@ -117,6 +117,7 @@ def equilibrium(
         iterations=found.iterations,
         residual=0.0,
         mudline=system.turbine.site.mudline,
+        memory=np.zeros(0),
         loads=tuple(loads),
     )
 
