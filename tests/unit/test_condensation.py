@@ -8,7 +8,9 @@ from helpers.soils import hysteretic, layered
 
 import offwind_pin as ow
 from offwind_pin.analysis.condensation import condense
-from offwind_pin.analysis.pile import pile_part
+from offwind_pin.analysis.pile import pile_only, pile_part
+from offwind_pin.turbines.depth_profile import DepthLine
+from offwind_pin.turbines.soil import LinearModulus, TanhTorsion
 
 LOAD = np.array([6e6, 2e6, 0, 0, 0, 3e6])
 
@@ -161,3 +163,51 @@ def test_small_motions_about_a_held_load_see_sliders_unyielded(oc6: ow.Turbine) 
     secant = condense(sliding, ow.static(sliding, load), stiffness="secant").stiffness
     expected = condense(elastic, ow.static(elastic, load), stiffness="secant").stiffness
     assert secant[0, 0] == pytest.approx(expected[0, 0], rel=5e-3)
+
+
+@pytest.fixture(scope="module")
+def held_along_the_shaft(undamped: ow.Turbine) -> ow.System:
+    """A pile alone in soil that resists at the mudline too, sideways, in settlement and twist."""
+    springs = undamped.soil.distributed_springs
+    assert springs is not None
+    uniform = DepthLine(at_mudline=1e8, source="a test's own")
+    torque = DepthLine(at_mudline=1e5, source="a test's own")
+    curves = {
+        "curve": LinearModulus(kind="linear", modulus_n_per_m2=uniform, source="-"),
+        "vertical": LinearModulus(kind="linear", modulus_n_per_m2=uniform, source="-"),
+        "torsional": TanhTorsion(
+            kind="tanh",
+            initial_stiffness_nm_per_m_per_rad=uniform,
+            ultimate_torque_nm_per_m=torque,
+            source="-",
+        ),
+        "toe_vertical_stiffness": 0.0,
+        "toe_torsional_stiffness": 0.0,
+    }
+    soil = undamped.soil.model_copy(
+        update={"distributed_springs": springs.model_copy(update=curves)}
+    )
+    pile = pile_only(undamped.model_copy(update={"soil": soil}))
+    return ow.build(pile, "distributed_springs")
+
+
+def test_soil_at_the_head_is_no_load(held_along_the_shaft: ow.System) -> None:
+    """Its node's springs belong to the pile: the load is a gram, the stiffness that of statics."""
+    pile = held_along_the_shaft
+    state = ow.static(pile)
+    found = condense(pile, state)
+    assert np.abs(found.load).max() < 0.02
+    push = np.array([1e3, 0, 0, 0, 0, 0])
+    ahead, behind = ow.static(pile, push), ow.static(pile, -push)
+    moved = (ahead.mudline_displacement - behind.mudline_displacement)[0] / 2e3
+    assert np.linalg.inv(found.stiffness)[0, 0] == pytest.approx(moved, rel=1e-6)
+
+
+def test_secant_keeps_torsion(held_along_the_shaft: ow.System) -> None:
+    """Secant stiffness times twist is the torque, far into the torsional curves."""
+    torque = 2e6
+    state = ow.static(held_along_the_shaft, np.array([0, 0, 0, 0, 0, torque]))
+    secant = condense(held_along_the_shaft, state, stiffness="secant")
+    tangent = condense(held_along_the_shaft, state)
+    assert secant.stiffness[5, 5] * secant.displacement[5] == pytest.approx(torque, rel=1e-6)
+    assert tangent.stiffness[5, 5] < 0.95 * secant.stiffness[5, 5]

@@ -107,6 +107,8 @@ def condense(
     pile = pile_part(system)
     q, rest = about.q[: pile.nv], np.zeros(pile.nv)
     load = about.mudline_load
+    if system.chain.top == pile.chain.top:  # the topmost section has its own node's soil above it
+        load = load - _soil_at_head(pile, q)
     acting = [constant_load(pile.chain.top, load)]
     equations = pile.equations(acting, np.inf, about.memory)
     lack = float(np.max(np.abs(equations.residual(0.0, q, rest, rest)))) / load_scale(system)
@@ -184,6 +186,17 @@ def _secants(pull: Array, moved: Array, tangents: Array) -> Array:
         some = distance > 0
         result[np.ix_(some, directions)] = (size[some] / distance[some])[:, None]
     return result
+
+
+def _soil_at_head(pile: System, q: Array) -> Array:
+    """(6,) force and moment of the soil at the node that lies at the mudline, in N and N m."""
+    motion = pile.equations([], ramp_time=np.inf).chain_motion(q, np.zeros(pile.nv))
+    total = np.zeros(6)
+    for springs in pile.foundation.soil:
+        found = springs.forces(0.0, motion.points_at(springs.height), 0.0)
+        at_head = springs.height == pile.chain.top
+        total += np.concatenate([found.force[at_head].sum(0), found.moment[at_head].sum(0)])
+    return total
 
 
 def _displacement(pile: System, about: StaticResult) -> Array:

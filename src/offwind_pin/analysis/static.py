@@ -15,8 +15,9 @@ from offwind_pin.loads.tower_top import constant_load
 from offwind_pin.solve.newton import newton
 from offwind_pin.turbines.definition import Array
 
-RELATIVE_TOLERANCE = 1e-11
-"""Largest entry of the residual over :func:`load_scale`."""
+RELATIVE_TOLERANCE = 1e-10
+"""Largest entry of the residual over :func:`load_scale`. Displacements of soil nodes are differences of
+heights, whose rounding alone leaves 1e-12 or more where the shaft carries the weight."""
 
 
 @dataclass(frozen=True, eq=False)
