@@ -10,6 +10,9 @@
 from offwind_pin.analysis.build import build
 from offwind_pin.analysis.condensation import Condensation, condense
 from offwind_pin.analysis.identify import Identification, Parameter, identify_soil
+
+
+from offwind_pin.analysis.equivalent_damping import equivalent_damping
 from offwind_pin.analysis.integrators import GeneralizedAlpha, SciPyIVP
 from offwind_pin.analysis.modal import ModalResult, modes
 from offwind_pin.analysis.pile import pile_only
@@ -18,6 +21,8 @@ from offwind_pin.analysis.static import StaticResult, static
 from offwind_pin.analysis.targets import DeflectionTarget, FrequencyTarget, ShapeTarget
 from offwind_pin.analysis.transient import simulate
 from offwind_pin.campaign.export import export_urdf
+from offwind_pin.campaign.soil_files import write_soil
+from offwind_pin.campaign.soil_overview import SoilOverview, soil_overview
 from offwind_pin.dynamics.sea import IrregularWaves, StillWater
 from offwind_pin.dynamics.system import System
 from offwind_pin.errors import InputError, InterruptedSimulation, OffwindError, SolverError
@@ -45,6 +50,9 @@ __all__ = [
     "Pushover",
     "SciPyIVP",
     "ShapeTarget",
+
+
+    "SoilOverview",
     "SolverError",
     "StaticResult",
     "StillWater",
@@ -53,6 +61,7 @@ __all__ = [
     "Turbine",
     "build",
     "condense",
+    "equivalent_damping",
     "export_urdf",
     "identify_soil",
     "load_turbine",
@@ -62,5 +71,7 @@ __all__ = [
     "read_load_history",
     "shipped_turbines",
     "simulate",
+    "soil_overview",
     "static",
+    "write_soil",
 ]

@@ -25,8 +25,11 @@ from offwind_pin.campaign.export import export_urdf
 from offwind_pin.campaign.output import check_writable
 from offwind_pin.campaign.overview import Overview, overview
 from offwind_pin.campaign.run import run_case
+from offwind_pin.campaign.soil_files import write_soil
+from offwind_pin.campaign.soil_overview import SoilOverview, soil_overview
 from offwind_pin.campaign.summaries import summarise_damping, summarise_modes, summarise_static
 from offwind_pin.display.animation import animate
+from offwind_pin.display.soil_page import soil_tables
 from offwind_pin.dynamics.sea import StillWater
 from offwind_pin.dynamics.system import System
 from offwind_pin.errors import InputError, InterruptedSimulation, SolverError
@@ -114,7 +117,7 @@ def static_command(
     as_json: JsonOption = False,  # noqa: FBT002
 ) -> None:
     """Static equilibrium under gravity and, if given, a load at the yaw bearing."""
-    load = None if tower_top_load is None else _numbers(tower_top_load)
+    load = None if tower_top_load is None else _numbers(tower_top_load, "--tower-top-load")
     system = build(load_turbine(turbine), foundation, elements=elements, element=element)
     summary = summarise_static(static(system, load))
     if as_json:
@@ -126,6 +129,42 @@ def static_command(
         table.add_row(key, f"{value:.6g}")
     Console().print(table)
     _print_surrogate(system.foundation.surrogate)
+
+
+@app.command("soil")
+def soil_command(
+    turbine: TurbineArgument,
+    out: Annotated[
+        Path | None, typer.Option(help="Directory for soil.html, soil.json, curves and 6x6 files.")
+    ] = None,
+    result: Annotated[
+        Path | None, typer.Option(help="Directory of a run, for the state that it reached.")
+    ] = None,
+    load: Annotated[
+        str | None,
+        typer.Option(metavar="FX,FY,FZ,MX,MY,MZ", help="Load at the yaw bearing in N and N m."),
+    ] = None,
+    arm: Annotated[
+        float | None,
+        typer.Option(help="Height in m of the pushover's load, by default the yaw bearing's."),
+    ] = None,
+    elements: ElementsOption = None,
+    as_json: JsonOption = False,  # noqa: FBT002
+) -> None:
+    """Curves of the soil, their state, pushover, 6x6, apparent fixity and damping."""
+    if out is not None:
+        check_writable(out)
+    acting = None if load is None else _numbers(load, "--load")
+    overview = soil_overview(
+        load_turbine(turbine), load=acting, result=result, arm=arm, elements=elements
+    )
+    written = [] if out is None else write_soil(overview, out)
+    if as_json:
+        _print_json(overview.as_dict())
+        return
+    _print_soil(overview)
+    for path in written:
+        Console().print(f"Wrote {path}", soft_wrap=True)
 
 
 @app.command()
@@ -230,13 +269,13 @@ def _simulation_progress() -> Iterator[Callable[[float, float], None]]:
             bar.stop()
 
 
-def _numbers(text: str) -> Array:
+def _numbers(text: str, option: str) -> Array:
     """Numbers separated by commas; how many there must be is the load's own business."""
     try:
         return np.array([float(cell) for cell in text.split(",")])
     except ValueError:
         raise InputError(
-            "--tower-top-load",
+            option,
             text,
             "six finite numbers FX,FY,FZ,MX,MY,MZ in N and N m",
             "Separate them by commas: 1e6,0,0,0,0,0.",
@@ -274,6 +313,22 @@ def _print_notes(system: System) -> None:
         if abs(achieved / asked - 1) > 0.05:
             text = f"Damping of {label}: {asked:.4g} asked for, {achieved:.4g} achieved."
             Console().print(text, style="yellow")
+
+
+def _print_soil(overview: SoilOverview) -> None:
+    console = Console()
+    for title, columns, rows in soil_tables(overview):
+        table = Table(*columns, title=title, title_justify="left", show_header=any(columns))
+        for column in table.columns[1:]:
+            column.justify = "right"
+        for row in rows:
+            table.add_row(*row)
+        console.print(table)
+    if overview.state is not None:
+        console.print(f"State: {overview.state.origin}", soft_wrap=True)
+    for text in (*overview.foundation.cautions, *overview.remarks):
+        console.print(text, style="yellow", markup=False)
+    _print_surrogate(overview.foundation.surrogate)
 
 
 def _print_overview(facts: Overview) -> None:

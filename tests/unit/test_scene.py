@@ -32,7 +32,7 @@ from offwind_pin.display.motion import (
 )
 from offwind_pin.display.recorder import Recorder, meshcat, meshcat_geometry
 from offwind_pin.display.scene import view_extent
-from offwind_pin.display.springs import foundation_springs, node_step, zigzag
+from offwind_pin.display.springs import foundation_springs, node_step, soil_springs, zigzag
 from offwind_pin.dynamics.poses import body_poses
 from offwind_pin.structure import meshes
 from offwind_pin.structure.frustum import Frustum
@@ -298,12 +298,15 @@ def test_springs_of_each_foundation(
     mudline = coupled_wet.turbine.site.mudline
     assert [spring.anchor[2] for spring in coupled[:4]] == [mudline] * 4
     drawn = foundation_springs(distributed_wet, x)
-    nodes = distributed_wet.foundation.soil[0].height
+    soil = soil_springs(distributed_wet)
+    assert soil is not None
+    nodes = soil.height
     heights = sorted({float(spring.anchor[2]) for spring in drawn if spring.name != "vertical"})
     assert set(heights) <= set(nodes.tolist())
     assert heights[0] == nodes.min()
     assert heights[-1] == nodes.max()
-    assert (len(nodes) - 1) % node_step(distributed_wet) == 0
+    chain = distributed_wet.chain
+    assert (len(nodes) - 1) % node_step(soil, chain.top - chain.base) == 0
     assert len(drawn) == 2 * len(heights) + 1
 
 

@@ -24,7 +24,7 @@ from offwind_pin.display.scene import (
     draw_mode,
     view_extent,
 )
-from offwind_pin.display.springs import node_step
+from offwind_pin.display.springs import node_step, soil_springs
 from offwind_pin.dynamics.system import System
 
 _FIELD_OF_VIEW_DEG = 24.0
@@ -75,9 +75,13 @@ def animate(system: System, result: ModalResult, label: str, *, links: bool = Fa
 
 def _springs_in_words(system: System) -> str:
     """What the spring symbols stand for; empty where there are none."""
-    if not system.foundation.soil:
-        return "" if system.foundation.root is None else "coupled springs"
-    step = node_step(system)
+    soil = soil_springs(system)
+    if soil is None:
+        at_mudline = (
+            "macro-element" if system.foundation.name == "macro_element" else "coupled springs"
+        )
+        return "" if system.foundation.root is None else at_mudline
+    step = node_step(soil, system.chain.top - system.chain.base)
     return "soil springs" if step == 1 else f"soil springs (one in {step} drawn)"
 
 

@@ -6,10 +6,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from offwind_pin.analysis.modal import mode_name
-from offwind_pin.display.tables import foundation_name, mudline_moment, ordered_statics
+from offwind_pin.display.tables import mudline_moment, ordered_statics
 from offwind_pin.display.wording import (
     difference,
     fixed,
+    foundation_name,
     listing,
     number,
     orders_of_magnitude,
@@ -103,7 +104,8 @@ def _history_sentences(report: CaseReport) -> list[str]:
 
 def _held(foundation: str) -> str:
     """How a foundation holds the structure, as an adverb."""
-    return ("" if foundation == "clamped" else "on ") + foundation_name(foundation)
+    before = {"clamped": "", "apparent_fixity": "with ", "macro_element": "on a "}
+    return before.get(foundation, "on ") + foundation_name(foundation)
 
 
 def static_increases(report: CaseReport) -> list[str]:

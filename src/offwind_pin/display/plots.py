@@ -15,7 +15,8 @@ from matplotlib.figure import Figure
 
 from offwind_pin.analysis.modal import FAMILIES, ModalResult
 from offwind_pin.analysis.static import StaticResult
-from offwind_pin.display.structure_plot import soil_springs, structure
+from offwind_pin.display.springs import soil_springs
+from offwind_pin.display.structure_plot import structure
 from offwind_pin.display.style import (
     BLUE,
     FULL_WIDTH,
@@ -31,7 +32,7 @@ from offwind_pin.display.style import (
     styled,
     thin,
 )
-from offwind_pin.display.wording import DASH, fixed, is_mode
+from offwind_pin.display.wording import DASH, fixed, foundation_name, is_mode
 from offwind_pin.loads.soil import SoilSprings
 from offwind_pin.turbines.definition import Array
 
@@ -47,12 +48,6 @@ __all__ = [
 ]
 
 MEGA = 1e6
-FOUNDATION_NAMES = {
-    "clamped": "clamped at the mudline",
-    "coupled_springs": "coupled springs at the mudline",
-    "distributed_springs": "distributed springs",
-}
-
 _SHOWN_COMPONENT = {"FA": 0, "SS": 1, "V": 2, "T": 5}
 _MODES_PER_FAMILY = 3
 _COLUMNS = 900
@@ -119,7 +114,7 @@ def statics(results: Mapping[str, StaticResult], *, water: bool = True) -> Figur
     low = min(result.height[0] for result in results.values())
     mudline = next(iter(results.values())).mudline
     for color, (name, result) in zip(PALETTE, results.items(), strict=False):
-        label = FOUNDATION_NAMES.get(name, name)
+        label = foundation_name(name)
         shape.plot(result.displacement[:, 0], result.height, color=color, label=label, zorder=3)
         moment.plot(result.section_load[:, 4] / MEGA, result.height, color=color, zorder=3)
         shape.plot(result.tower_top_displacement[0], result.height[-1], "o", ms=5, color=color)

@@ -13,21 +13,15 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 from matplotlib.figure import Figure
 
-from offwind_pin.analysis.modal import ModalResult, mode_name
+from offwind_pin.analysis.modal import ModalResult
 from offwind_pin.analysis.static import StaticResult
 from offwind_pin.display import headline, plots, tables
+from offwind_pin.display.page import environment
 from offwind_pin.display.style import to_svg
-from offwind_pin.display.wording import (
-    DASH,
-    as_given,
-    is_mode,
-    number,
-    sentence,
-)
+from offwind_pin.display.wording import DASH, is_mode
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.synthetic_wind import RotorOperation, SyntheticWind
 from offwind_pin.results.files import write_text
@@ -193,7 +187,7 @@ def render_report(report: CaseReport) -> str:
     """The HTML text of a report."""
     shown = _tables(report)
     return (
-        _environment()
+        environment()
         .get_template("report.html.j2")
         .render(
             report=report,
@@ -205,20 +199,6 @@ def render_report(report: CaseReport) -> str:
             contents={name: title for name, title in SECTIONS.items() if shown.get(name)},
         )
     )
-
-
-def _environment() -> Environment:
-    environment = Environment(
-        loader=PackageLoader("offwind_pin.display"),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    words = (as_given, mode_name, number, sentence)
-    environment.filters |= {word.__name__: word for word in words}
-    environment.globals["foundation_name"] = tables.foundation_name
-    return environment
 
 
 def _tables(report: CaseReport) -> dict[str, Any]:

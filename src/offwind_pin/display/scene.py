@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 
 from offwind_pin.display.motion import FRAMES, ModeMotion
 from offwind_pin.display.recorder import meshcat_animation, meshcat_geometry
-from offwind_pin.display.springs import Spring, foundation_springs, zigzag
+from offwind_pin.display.springs import Spring, foundation_springs, soil_springs, zigzag
 from offwind_pin.dynamics.system import System
 from offwind_pin.structure.meshes import Mesh, body_meshes, box, circle, disc, loft
 from offwind_pin.structure.rotor import rna_meshes
@@ -86,7 +86,7 @@ def draw_site(view: Any, system: System) -> None:
 def draw_springs(view: Any, system: System, springs: list[Spring]) -> None:
     """Springs as bent rods, each in axes with x from its anchor to its body."""
     height = system.chain.top - system.chain.base
-    width = (0.011 if system.foundation.soil else 0.022) * height
+    width = (0.011 if soil_springs(system) else 0.022) * height
     for spring in springs:
         symbol = zigzag(spring.rest_length, width, radius=0.0014 * height)
         _set_mesh(view["springs"][spring.name], symbol, SPRING_COLOUR)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from offwind_pin.dynamics.system import System
+from offwind_pin.loads.soil import LATERAL, SoilSprings
 from offwind_pin.structure.meshes import Mesh, tube
 from offwind_pin.structure.section import outer_diameter
 from offwind_pin.turbines.definition import Array
@@ -61,8 +62,9 @@ def foundation_springs(system: System, lateral: Array) -> list[Spring]:
     chain = system.chain
     reach = 0.045 * (chain.top - chain.base)
     result: list[Spring] = []
-    for load in system.foundation.soil:
-        for height in load.height[:: node_step(system)]:
+    soil = soil_springs(system)
+    if soil is not None:
+        for height in soil.height[:: node_step(soil, chain.top - chain.base)]:
             result.extend(_pair(system, float(height), lateral, reach))
     if system.foundation.root is not None:
         if not result:
@@ -73,18 +75,30 @@ def foundation_springs(system: System, lateral: Array) -> list[Spring]:
     return result
 
 
-def node_step(system: System) -> int:
+def soil_springs(system: System) -> SoilSprings | None:
+    """The lateral springs along the pile, or None for a foundation without them.
+
+    Springs in other directions, and those at the toe, are not drawn.
+    """
+    return next(
+        (
+            load
+            for load in system.foundation.soil
+            if isinstance(load, SoilSprings) and load.direction == LATERAL and len(load.height) > 1
+        ),
+        None,
+    )
+
+
+def node_step(soil: SoilSprings, structure_height: float) -> int:
     """How many soil nodes lie from one drawn spring to the next, so that they can be told apart.
 
     It divides the pile evenly: the first and the last node are always drawn.
     """
-    height = np.concatenate([[], *(load.height for load in system.foundation.soil)])
-    if len(height) < 2:
-        return 1
-    closest = _CLOSEST * (system.chain.top - system.chain.base)
-    gaps = len(height) - 1
+    closest = _CLOSEST * structure_height
+    gaps = len(soil.height) - 1
     steps = (step for step in range(1, gaps + 1) if gaps % step == 0)
-    spacing = abs(height[-1] - height[0]) / gaps
+    spacing = abs(soil.height[-1] - soil.height[0]) / gaps
     return next((step for step in steps if step * spacing >= closest), gaps)
 
 

@@ -8,6 +8,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Polygon
 
+from offwind_pin.display.springs import soil_springs
 from offwind_pin.display.style import (
     BLUE,
     GREEN,
@@ -19,7 +20,7 @@ from offwind_pin.display.style import (
     spread,
     styled,
 )
-from offwind_pin.display.wording import TIMES, fixed
+from offwind_pin.display.wording import TIMES, base_name, fixed
 from offwind_pin.dynamics.sea import IrregularWaves
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.soil import SoilSprings
@@ -66,11 +67,6 @@ def structure(system: System) -> Figure:
         _foundation(enlarged, system, soil, reach=8.0)
         enlarged.set_title(f"The embedded pile, {len(soil.height)} springs", fontsize=9.5)
     return figure
-
-
-def soil_springs(system: System) -> SoilSprings | None:
-    """The springs along the pile, or None for a foundation without them."""
-    return next((load for load in system.foundation.soil if isinstance(load, SoilSprings)), None)
 
 
 def _frame(axes: Axes, x: tuple[float, float], z: tuple[float, float]) -> None:
@@ -183,8 +179,10 @@ def _foundation(axes: Axes, system: System, soil: SoilSprings | None, reach: flo
         _toe_spring(axes, base)
     elif system.foundation.root is None:
         _clamp(axes, base, radius)
+    elif system.foundation.name == "macro_element":
+        _mudline_springs(axes, mudline, radius, "macro-element at the mudline")
     else:
-        _mudline_springs(axes, mudline, radius)
+        _mudline_springs(axes, mudline, radius, f"6{TIMES}6 stiffness at the mudline")
 
 
 def _springs(axes: Axes, height: Array, radius: float, reach: float) -> None:
@@ -216,8 +214,8 @@ def _clamp(axes: Axes, base: float, radius: float) -> None:
     axes.annotate("clamped", (2.4 * radius, base - 2.6), va="center", fontsize=9)
 
 
-def _mudline_springs(axes: Axes, mudline: float, radius: float) -> None:
-    """One lateral spring, one vertical, and a spiral for rotation: the 6x6 in a sign."""
+def _mudline_springs(axes: Axes, mudline: float, radius: float, name: str) -> None:
+    """One lateral spring, one vertical, and a spiral for rotation."""
     along, across = _zigzag(radius, radius + 9, amplitude=1.0)
     axes.plot(along, mudline + across, color=GREEN, lw=1.3, zorder=5, gid="coupled-spring")
     wall = radius + 9
@@ -228,7 +226,7 @@ def _mudline_springs(axes: Axes, mudline: float, radius: float) -> None:
         size * np.cos(angle), mudline - 4.2 + size * np.sin(angle), color=GREEN, lw=1.3, zorder=5
     )
     axes.annotate(
-        f"6{TIMES}6 stiffness at the mudline",
+        name,
         (radius, mudline - 5.2),
         va="center",
         fontsize=9,
@@ -256,12 +254,13 @@ def _label_heights(axes: Axes, system: System) -> None:
     labels += [
         (member.bottom, f"foot of {member.name.replace('_', ' ')}\nD {_foot(member):.2f} m")
         for member in turbine.members
-        if member.bottom > chain.base
+        if member.bottom > chain.base and member.bottom != turbine.site.mudline
     ]
     labels.append((0.0, "still water level" if system.sea else "water level (dry case)"))
     labels.append((turbine.site.mudline, "mudline"))
     if chain.base < turbine.site.mudline:
-        labels.append((chain.base, f"pile toe\nD {_diameter(system, chain.base):.2f} m"))
+        end = base_name(system.foundation.name)
+        labels.append((chain.base, f"{end}\nD {_diameter(system, chain.base):.2f} m"))
     labels.sort()
     places = spread([height for height, _ in labels], 9.0)
     for (height, text), place in zip(labels, places, strict=True):

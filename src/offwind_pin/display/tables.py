@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from offwind_pin.analysis.modal import mode_name
-from offwind_pin.display.plots import FOUNDATION_NAMES
 from offwind_pin.display.wording import (
     DASH,
     as_given,
+    base_name,
     count,
     difference,
+    foundation_name,
     number,
     quantity,
     relative_difference,
@@ -84,10 +85,6 @@ class ModeRow:
     peak_height_ratio: float
     peak_height: float
     published: str
-
-
-def foundation_name(name: str) -> str:
-    return FOUNDATION_NAMES.get(name, name)
 
 
 def ordered_statics(report: CaseReport) -> dict[str, StaticResult]:
@@ -163,7 +160,7 @@ def structure_facts(system: System) -> list[tuple[str, str]]:
     turbine, chain = system.turbine, system.chain
     mudline = turbine.site.mudline
     mass = sum(body.mass for body in chain.body)
-    above = "mudline" if chain.base >= mudline else "pile toe"
+    above = "mudline" if chain.base >= mudline else base_name(system.foundation.name)
     facts = [
         ("foundation", foundation_name(system.foundation.name)),
         ("sea", describe_sea(system)),
@@ -171,7 +168,8 @@ def structure_facts(system: System) -> list[tuple[str, str]]:
         ("water depth", quantity(turbine.site.water_depth, "m", 3)),
     ]
     if chain.base < mudline:
-        facts.append(("embedded length", quantity(mudline - chain.base, "m", 3)))
+        length = f"from the mudline to the {base_name(system.foundation.name)}"
+        facts.append((length, quantity(mudline - chain.base, "m", 3)))
     facts += [
         (f"tower and monopile, from the {above}", quantity(mass / 1e3, "t")),
         ("rotor-nacelle assembly", quantity(chain.rna.mass / 1e3, "t")),

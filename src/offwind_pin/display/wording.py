@@ -14,6 +14,25 @@ _NO_BREAK = "\u00a0"
 _ROUNDING = 5e-4
 
 
+_FOUNDATIONS = {
+    "clamped": "clamped at the mudline",
+    "apparent_fixity": "apparent fixity below the mudline",
+    "coupled_springs": "coupled springs at the mudline",
+    "distributed_springs": "distributed springs",
+    "macro_element": "macro-element at the mudline",
+}
+
+
+def foundation_name(name: str) -> str:
+    """A foundation in plain words; somebody else's by its own name."""
+    return _FOUNDATIONS.get(name, name)
+
+
+def base_name(foundation: str) -> str:
+    """What the lower end of a chain is that reaches below the mudline."""
+    return "apparent fixity" if foundation == "apparent_fixity" else "pile toe"
+
+
 def number(value: float, significant: int = 4) -> str:
     """A number with significant digits, a true minus sign, and spaces between thousands.
 

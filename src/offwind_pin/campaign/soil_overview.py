@@ -1,0 +1,564 @@
+"""The soil of a turbine in sight: curves, state, pushover, stiffness at the mudline, damping."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any, Literal, TypeVar, cast
+
+import numpy as np
+import xarray as xr
+
+from offwind_pin.analysis.assembly import assemble
+from offwind_pin.analysis.condensation import condense
+from offwind_pin.analysis.equivalent_damping import equivalent_damping
+from offwind_pin.analysis.equivalent_foundations import (
+    apparent_fixity,
+    condensed_stiffness,
+    macro_element,
+)
+from offwind_pin.analysis.pushover import Pushover, pushover
+from offwind_pin.analysis.static import StaticResult, static
+from offwind_pin.display.plots import soil_displacement_reached
+from offwind_pin.dynamics.foundations import Foundation, distributed_springs
+from offwind_pin.dynamics.macro_element import MacroElement
+from offwind_pin.dynamics.system import System
+from offwind_pin.errors import InputError, SolverError
+from offwind_pin.loads.dashpots import NO_DASHPOT, Dashpot
+from offwind_pin.loads.frictional_moment import FrictionalMoment
+from offwind_pin.loads.ground import Ground, layer_index
+from offwind_pin.loads.hysteretic import HystereticSprings
+from offwind_pin.loads.soil import ROCKING, TORSIONAL, SoilSprings
+from offwind_pin.loads.soil_curves import TABLE, SoilCurves
+from offwind_pin.structure.section import outer_diameter
+from offwind_pin.structure.urdf import definition_hash
+from offwind_pin.turbines.base import Array
+from offwind_pin.turbines.definition import Turbine
+from offwind_pin.turbines.soil import DistributedSprings, Hysteresis, SoilDashpot
+from offwind_pin.turbines.soil_layers import LayeredGround
+
+Made = TypeVar("Made")
+
+_FREQUENCIES = (0.1, 0.25, 1.0)
+"""Hz: of waves, and of a monopile turbine's first and second bending modes, roughly."""
+_AMPLITUDES = np.geomspace(1e-5, 1e-2, 25)
+"""Over the pile's diameter; at a tenth of it, a monopile counts as failed."""
+_SLIDERS = Hysteresis(sliders=60)
+_SAMPLED = np.concatenate([[0.0], np.geomspace(1e-6, 0.25, 100)])
+"""Deflections of the exported curves, over the diameter, or in rad."""
+
+
+@dataclass(frozen=True, eq=False)
+class SoilState:
+    """What the lateral springs have been through.
+
+    Attributes
+    ----------
+    origin : where it comes from, in words
+    displacement : (n,) largest lateral displacement of each node in m
+    resistance : (n,) p there in N/m
+    secant : (n,) p / y there in N/m2
+    utilisation : (n,) p over the ultimate resistance; not a number where there is none
+    """
+
+    origin: str
+    displacement: Array
+    resistance: Array
+    secant: Array
+    utilisation: Array
+
+    @staticmethod
+    def of(curves: SoilCurves, displacement: Array, origin: str) -> SoilState:
+        resistance, ultimate = curves.resistance(displacement), curves.ultimate
+        used = np.full_like(resistance, np.nan)
+        np.divide(resistance, ultimate, out=used, where=(ultimate > 0) & np.isfinite(ultimate))
+        return SoilState(origin, displacement, resistance, curves.secant(displacement), used)
+
+
+@dataclass(frozen=True)
+class Fixity:
+    """A cantilever of apparent fixity beside the 6x6 that it stands for.
+
+    length in m, bending_stiffness in N m2, load_arm in m; stiffness and reference (2, 2) of x and
+    ry in N, m, rad
+    """
+
+    length: float
+    bending_stiffness: float
+    load_arm: float
+    stiffness: Array
+    reference: Array
+
+    @property
+    def difference(self) -> Array:
+        """(2, 2) of the cantilever's from the 6x6's, over the latter."""
+        return np.asarray(self.stiffness / self.reference - 1)
+
+
+@dataclass(frozen=True, eq=False)
+class SoilOverview:
+    """What the soil of a turbine is and does.
+
+    Attributes
+    ----------
+    turbine : whose soil it is
+    springs, foundation : its distributed springs as defined and as made
+    lateral : the lateral ones along the pile
+    depth, diameter : (n,) of the nodes in m
+    model : (n,) name of the law of each node's curve
+    state : of the nodes, or None where neither a result nor a load was given
+    pushover : of the pile; it ends early where the soil gives way
+    macro_element : its displacement in m and rotation in rad under the pushover's loads, (t, 2)
+    stiffness : (6, 6) at the mudline by name, in N, m, rad
+    fixity : of the turbine's apparent fixity
+    damping : over amplitude and frequency at one node, by model of the damping
+    damping_model : which of them the turbine has, or None
+    remarks : what could not be made, and why
+    """
+
+    turbine: Turbine
+    springs: DistributedSprings
+    foundation: Foundation
+    lateral: SoilSprings
+    depth: Array
+    diameter: Array
+    model: tuple[str, ...]
+    state: SoilState | None
+    pushover: Pushover
+    macro_element: Array | None
+    stiffness: dict[str, Array]
+    fixity: Fixity | None
+    damping: dict[str, xr.Dataset]
+    damping_model: str | None
+    remarks: tuple[str, ...]
+
+    @property
+    def others(self) -> tuple[SoilSprings | FrictionalMoment, ...]:
+        """All other springs that follow curves."""
+        kinds = (SoilSprings, FrictionalMoment)
+        return tuple(load for load in self.foundation.soil[1:] if isinstance(load, kinds))
+
+    @property
+    def head_diameter(self) -> float:
+        """Of the pile at the mudline in m."""
+        return float(self.diameter[0])
+
+    @property
+    def ended_early(self) -> bool:
+        """Whether the soil gave way before the pushover's end."""
+        return any(remark.startswith(_PUSHOVER) for remark in self.remarks)
+
+    @property
+    def damping_depth(self) -> float:
+        """Depth below the mudline in m of the spring whose damping is told."""
+        return float(self.depth[_damping_node(self.lateral, self.depth, self.head_diameter)])
+
+    def lateral_curves(self) -> list[tuple[float, float, float]]:
+        """Depth in m, y in m and p in N/m of every node, as a curve table has them."""
+        return [
+            (float(depth), y, p)
+            for depth, points in zip(
+                self.depth, _sampled(self.lateral.curves, self.head_diameter), strict=True
+            )
+            for y, p in points
+        ]
+
+    def other_curves(self) -> list[tuple[str, float, float, str, float, str]]:
+        """Spring, depth in m, deflection and its unit, resistance and its unit, of all others.
+
+        Resistances are per metre of pile along the shaft, whole at the toe; the lever in m of
+        moments that the lateral resistance carries stands for a resistance.
+        """
+        rows = []
+        for load in self.others:
+            turns, units = _units(load)
+            curves = load.lever if isinstance(load, FrictionalMoment) else load.curves
+            scale = 1.0 if turns else self.head_diameter
+            depth = self.turbine.site.mudline - load.height
+            for below, points in zip(depth, _sampled(curves, scale), strict=True):
+                rows += [(load.name, float(below), y, units[0], p, units[1]) for y, p in points]
+        return rows
+
+    def nodes(self) -> list[dict[str, Any]]:
+        """One row of plain data for each node, from the mudline down."""
+        soil, state = self.lateral, self.state
+        initial, ultimate = soil.curves.secant(np.zeros(len(self.depth))), soil.curves.ultimate
+        rows = []
+        for i, model in enumerate(self.model):
+            row: dict[str, Any] = {
+                "depth_m": float(self.depth[i]),
+                "height_m": float(soil.height[i]),
+                "diameter_m": float(self.diameter[i]),
+                "tributary_length_m": float(soil.tributary_length[i]),
+                "model": model,
+                "initial_modulus_n_per_m2": float(initial[i]),
+                "ultimate_resistance_n_per_m": _finite(ultimate[i]),
+            }
+            if state is not None:
+                row |= {
+                    "displacement_m": float(state.displacement[i]),
+                    "resistance_n_per_m": float(state.resistance[i]),
+                    "secant_stiffness_n_per_m2": float(state.secant[i]),
+                    "utilisation": _finite(state.utilisation[i]),
+                }
+            rows.append(row)
+        return rows
+
+    def as_dict(self) -> dict[str, Any]:
+        """Plain data, SI units in the keys."""
+        springs, push = self.springs, self.pushover
+        return {
+            "turbine": self.turbine.name,
+            "definition_sha256": definition_hash(self.turbine),
+            "surrogate": self.foundation.surrogate,
+            "cautions": list(self.foundation.cautions),
+            "remarks": list(self.remarks),
+            "scour_depth_m": self.turbine.site.scour_depth,
+            "nodes": self.nodes(),
+            "other_springs": [_other(load, self.turbine.site.mudline) for load in self.others],
+            "toe_vertical_stiffness_n_per_m": springs.toe_vertical_stiffness,
+            "toe_torsional_stiffness_nm_per_rad": springs.toe_torsional_stiffness,
+            "state": self._state(),
+            "pushover": {
+                "arm_m": push.arm,
+                "load_n": push.load.tolist(),
+                "moment_nm": push.moment.tolist(),
+                "displacement_m": push.displacement.tolist(),
+                "rotation_rad": push.rotation.tolist(),
+                "macro_element": None
+                if self.macro_element is None
+                else {
+                    "displacement_m": self.macro_element[:, 0].tolist(),
+                    "rotation_rad": self.macro_element[:, 1].tolist(),
+                },
+            },
+            "stiffness_6x6": {name: matrix.tolist() for name, matrix in self.stiffness.items()},
+            "apparent_fixity": None
+            if self.fixity is None
+            else {
+                "length_m": self.fixity.length,
+                "bending_stiffness_nm2": self.fixity.bending_stiffness,
+                "load_arm_m": self.fixity.load_arm,
+                "lateral_stiffness": self.fixity.stiffness.tolist(),
+                "lateral_stiffness_of_6x6": self.fixity.reference.tolist(),
+                "difference": self.fixity.difference.tolist(),
+            },
+            "equivalent_damping": {
+                "model_of_turbine": self.damping_model,
+                "models": {name: _damping(found) for name, found in self.damping.items()},
+            },
+        }
+
+    def _state(self) -> dict[str, Any] | None:
+        if self.state is None:
+            return None
+        used = self.state.utilisation
+        known = bool(np.any(np.isfinite(used)))
+        at = int(np.nanargmax(used)) if known else 0
+        return {
+            "origin": self.state.origin,
+            "largest_displacement_m": float(self.state.displacement.max()),
+            "largest_utilisation": float(used[at]) if known else None,
+            "depth_of_largest_utilisation_m": float(self.depth[at]) if known else None,
+        }
+
+
+def soil_overview(
+    turbine: Turbine,
+    *,
+    load: Array | None = None,
+    result: Path | None = None,
+    arm: float | None = None,
+    elements: int | None = None,
+) -> SoilOverview:
+    """Everything about the distributed springs of a turbine that an engineer wants to see.
+
+    Parameters
+    ----------
+    load : (6,) at the yaw bearing in N and N m, under which and gravity the state is found, dry
+    result : directory with ``results.nc`` of a transient on these springs, for the state instead:
+        the largest displacement of each node after the ramp, linear between the recorded heights
+    arm : height in m above the mudline of the pushover's load, by default the yaw bearing's
+    elements : multibody beam elements of the structure in all, for the state under a load
+
+    Raises
+    ------
+    InputError : no pile or no distributed springs, both a load and a result, or a result that
+        cannot be read, has no displacement below the mudline, or is of another turbine
+    SolverError : no equilibrium under the load
+    """
+    if load is not None and result is not None:
+        raise InputError("load and result", "both", "one of them", "Leave the other out.")
+    foundation = distributed_springs(turbine)
+    springs = cast(DistributedSprings, turbine.soil.distributed_springs)
+    soil = cast(SoilSprings, foundation.soil[0])
+    mudline = turbine.site.mudline
+    depth, diameter = mudline - soil.height, outer_diameter(turbine, soil.height)
+    stiffness = {"tangent_unloaded": condensed_stiffness(turbine)}
+    state = None
+    if result is not None:
+        state = SoilState.of(soil.curves, _reached(turbine, soil, result), f"run in {result}")
+    if load is not None:
+        system = assemble(turbine, foundation, elements=elements)
+        found = static(system, load)
+        state = SoilState.of(soil.curves, _static_reached(system, soil, found), _of_load(load))
+        for kind in ("tangent", "secant"):
+            stiffness[f"{kind}_loaded"] = condense(system, found, stiffness=kind).symmetric
+    remarks: list[str] = []
+    pushed = _pushed(turbine, turbine.yaw_bearing - mudline if arm is None else arm, remarks)
+    held = _attempt("macro-element", lambda: macro_element(turbine), remarks)
+    followed = None
+    if held is not None:
+        followed = macro_element_response(cast(MacroElement, held.root), pushed)
+    damping = _dampings(springs, soil, depth, float(diameter[0]), remarks)
+    return SoilOverview(
+        turbine=turbine,
+        springs=springs,
+        foundation=foundation,
+        lateral=soil,
+        depth=depth,
+        diameter=diameter,
+        model=_models(springs, turbine, depth, diameter),
+        state=state,
+        pushover=pushed,
+        macro_element=followed,
+        stiffness=stiffness,
+        fixity=_attempt("apparent fixity", lambda: _fixity(turbine), remarks),
+        damping=damping,
+        damping_model=_damping_model(springs),
+        remarks=tuple(remarks),
+    )
+
+
+def macro_element_response(element: MacroElement, pushed: Pushover) -> Array:
+    """(t, 2) displacement in m and rotation in rad of a macro-element under a pushover's loads."""
+    memory, x = np.zeros(element.memory_size), np.zeros(6)
+    rest = np.zeros(6)
+    found: list[Array] = []
+    for load in pushed.load:
+        wanted = load * np.array([1.0, 0.0, 0.0, 0.0, pushed.arm, 0.0])
+        for _ in range(_MOST_ITERATIONS):
+            lack = wanted - element.reaction(x, rest, memory)
+            if np.max(np.abs(lack)) <= _TOLERANCE * np.max(np.abs(wanted)):
+                break
+            x = x + np.linalg.solve(element.tangents(x, rest, memory)[0], lack)
+        else:
+            raise SolverError(
+                "the macro-element does not hold a load of the pushover",
+                step=len(found),
+                joint="mudline",
+                residual=float(np.max(np.abs(lack))),
+            )
+        element.commit(x, memory)
+        found.append(x[[0, 4]])
+    return np.array(found)
+
+
+_MOST_ITERATIONS, _TOLERANCE = 60, 1e-9
+
+
+def _models(
+    springs: DistributedSprings, turbine: Turbine, depth: Array, diameter: Array
+) -> tuple[str, ...]:
+    """Name of the law at every node."""
+    if not isinstance(springs.curve, LayeredGround):
+        return (springs.curve.kind,) * len(depth)
+    ground = Ground(depth, diameter, float(depth[-1]), turbine.site.scour_depth)
+    layers = springs.curve.layers
+    return tuple(layers[i].model for i in layer_index(layers, ground))
+
+
+def _reached(turbine: Turbine, soil: SoilSprings, directory: Path) -> Array:
+    """Largest displacement of each node after the ramp of a run."""
+    path = directory / "results.nc"
+    where = str(path)
+    if not path.is_file():
+        raise InputError(where, "no such file", "results.nc of a run", "Give the --out of a run.")
+    try:
+        histories = xr.open_dataset(path, engine="netcdf4")
+    except OSError as error:
+        raise InputError(where, str(error), "a NetCDF file", "Run the case again.") from None
+    with histories:
+        if not {"displacement", "time", "height"} <= set(histories.variables):
+            allowed = "displacement over time and height, as a transient has them"
+            raise InputError(
+                where, list(histories.data_vars), allowed, "Give a transient's result."
+            )
+        name, made_of = histories.attrs.get("turbine"), histories.attrs.get("definition_sha256")
+        if name != turbine.name:
+            raise InputError(
+                where, f"a result of turbine {name}", turbine.name, "Give a result of this turbine."
+            )
+        if made_of != definition_hash(turbine):
+            allowed = "one of the definition as it is now"
+            raise InputError(where, f"a result of another {name}", allowed, "Run the case again.")
+        if float(histories.height.min()) > float(soil.height.min()) + _SAME_HEIGHT:
+            raise InputError(
+                where,
+                f"a result on {histories.attrs.get('foundation')}, down to "
+                f"{float(histories.height.min()):g} m",
+                "one on distributed_springs, down to the toe",
+                "Run the case on distributed_springs.",
+            )
+        if float(histories.time[-1]) < float(histories.attrs.get("ramp_s", 0.0)):
+            raise InputError(where, "a run that ended in its ramp", "a longer one", "Run it on.")
+        return soil_displacement_reached(histories, soil)
+
+
+_SAME_HEIGHT = 1e-6
+
+
+def _static_reached(system: System, soil: SoilSprings, state: StaticResult) -> Array:
+    """Lateral displacement of each node in a static state, of the chain's own axis."""
+    rest = np.zeros(system.nv)
+    motion = system.equations([], ramp_time=np.inf).chain_motion(state.q, rest)
+    return np.asarray(np.hypot(*motion.points_at(soil.height).displacement[:, :2].T))
+
+
+def _of_load(load: Array) -> str:
+    parts = zip(("Fx", "Fy", "Fz", "Mx", "My", "Mz"), load, strict=True)
+    told = ", ".join(
+        f"{name} = {value / 1e6:g} {'MN' if name[0] == 'F' else 'MN m'}"
+        for name, value in parts
+        if value
+    )
+    return f"static state under gravity and {told or 'no load'} at the yaw bearing"
+
+
+_PUSHOVER = "pushover"
+
+
+def _pushed(turbine: Turbine, arm: float, remarks: list[str]) -> Pushover:
+    """To a tenth of the diameter, or as far as the soil holds."""
+    try:
+        return pushover(turbine, arm)
+    except SolverError as error:
+        if error.results is None or len(error.results.load) < 2:
+            raise
+        remarks.append(f"{_PUSHOVER}: {error}")
+        return error.results
+
+
+def _attempt(what: str, make: Callable[[], Made], remarks: list[str]) -> Made | None:
+    """What could be made, or a remark why not: the rest of an overview needs no such thing."""
+    try:
+        return make()
+    except (InputError, SolverError) as error:
+        remarks.append(f"{what}: {error}")
+        return None
+
+
+def _fixity(turbine: Turbine) -> Fixity:
+    facts = cast(dict[str, Any], apparent_fixity(turbine).facts["apparent_fixity"])
+    length, bending = facts["length_m"], facts["bending_stiffness_nm2"]
+    cantilever = np.array([[12 / length**2, -6 / length], [-6 / length, 4.0]]) * bending / length
+    whole = np.array(facts["mudline_stiffness"])
+    return Fixity(length, bending, facts["load_arm_m"], cantilever, whole[np.ix_([0, 4], [0, 4])])
+
+
+def _damping_model(springs: DistributedSprings) -> str | None:
+    if springs.hysteretic is not None:
+        return "sliders"
+    return None if springs.dashpot is None else f"{springs.dashpot.stiffness}_dashpot"
+
+
+def _dampings(
+    springs: DistributedSprings,
+    soil: SoilSprings,
+    depth: Array,
+    diameter: float,
+    remarks: list[str],
+) -> dict[str, xr.Dataset]:
+    """Damping of the node nearest to one diameter of depth, by model.
+
+    The turbine's own numbers, and what the other models make of its factor and its curve.
+    """
+    node = _damping_node(soil, depth, diameter)
+    curves = SoilCurves(soil.curves.numbers[[node]])
+    parts = (soil.name, soil.direction, soil.height[[node]], soil.tributary_length[[node]], curves)
+    models: dict[str, SoilSprings] = {}
+    dashpot = springs.dashpot
+    if dashpot is not None:
+        models["secant_dashpot"] = SoilSprings(*parts, Dashpot.of(_of_stiffness(dashpot, "secant")))
+        if isinstance(dashpot.damping_factor, float):
+            constant = Dashpot.of(_of_stiffness(dashpot, "initial"))
+            models["initial_dashpot"] = SoilSprings(*parts, constant)
+    beside = soil.dashpot if springs.hysteretic is not None else NO_DASHPOT
+    sliders = (springs.hysteretic or _SLIDERS).sliders
+    models["sliders"] = HystereticSprings(*parts, beside, sliders)
+    amplitudes = _AMPLITUDES * diameter
+    found = {}
+    for name, model in models.items():
+        drive = partial(equivalent_damping, model, amplitudes, _FREQUENCIES, node=0)
+        data = _attempt(f"damping, {name.replace('_', ' ')}", drive, remarks)
+        if data is not None:
+            found[name] = data
+    return found
+
+
+def _damping_node(soil: SoilSprings, depth: Array, diameter: float) -> int:
+    """The node at which the soil resists that is nearest to a diameter of depth."""
+    resists = np.flatnonzero(soil.curves.secant(np.zeros(len(depth))) > 0)
+    return int(resists[np.argmin(np.abs(depth[resists] - diameter))])
+
+
+def _of_stiffness(dashpot: SoilDashpot, stiffness: Literal["secant", "initial"]) -> SoilDashpot:
+    return dashpot.model_copy(update={"stiffness": stiffness})
+
+
+def _damping(found: xr.Dataset) -> dict[str, Any]:
+    return {
+        "height_m": found.attrs["height_m"],
+        "amplitude_m": found.amplitude.values.tolist(),
+        "frequency_hz": found.frequency.values.tolist(),
+        "damping_ratio": found.damping_ratio.values.tolist(),
+        "secant_stiffness_n_per_m": found.secant_stiffness.values.tolist(),
+    }
+
+
+def _sampled(curves: SoilCurves, scale: float) -> list[list[tuple[float, float]]]:
+    """Points of each curve; of a table its own, elsewhere so that chords stay close."""
+    rows = curves.numbers
+    tables = [row[2 : 2 + int(row[1])] for row in rows if row[0] == TABLE]
+    whole = len(tables) == len(rows)
+    grid = np.unique(np.concatenate([*tables, [] if whole else scale * _SAMPLED]))
+    resistance = np.array([curves.resistance(np.full(len(rows), y)) for y in grid])
+    return [list(zip(grid.tolist(), column.tolist(), strict=True)) for column in resistance.T]
+
+
+def _units(load: SoilSprings | FrictionalMoment) -> tuple[bool, tuple[str, str]]:
+    """Whether it resists rotation, and the units of deflection and resistance."""
+    if isinstance(load, FrictionalMoment):
+        return True, ("rad", "m")
+    turns = load.direction in (ROCKING, TORSIONAL)
+    at_toe = load.name in _AT_TOE
+    units = {
+        (False, False): ("m", "N/m"),
+        (False, True): ("m", "N"),
+        (True, False): ("rad", "N m/m"),
+        (True, True): ("rad", "N m"),
+    }
+    return turns, units[turns, at_toe]
+
+
+_AT_TOE = ("soil_base_shear", "soil_base_moment", "soil_bearing")
+
+
+def _other(load: SoilSprings | FrictionalMoment, mudline: float) -> dict[str, Any]:
+    """A load of the soil besides the lateral springs, by its nodes."""
+    _, units = _units(load)
+    curves = load.lever if isinstance(load, FrictionalMoment) else load.curves
+    return {
+        "name": load.name,
+        "deflection_unit": units[0],
+        "resistance_unit": units[1],
+        "depth_m": (mudline - load.height).tolist(),
+        "initial_stiffness": curves.secant(np.zeros(len(load.height))).tolist(),
+        "ultimate": [_finite(value) for value in curves.ultimate],
+    }
+
+
+def _finite(value: float) -> float | None:
+    return float(value) if np.isfinite(value) else None
