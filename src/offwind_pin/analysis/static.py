@@ -16,8 +16,8 @@ from offwind_pin.solve.newton import newton
 from offwind_pin.turbines.definition import Array
 
 RELATIVE_TOLERANCE = 1e-10
-"""Largest entry of the residual over :func:`load_scale`. Displacements of soil nodes are differences of
-heights, whose rounding alone leaves 1e-12 or more where the shaft carries the weight."""
+"""Largest entry of the residual over :func:`load_scale`. Displacements of soil nodes are
+differences of heights, whose rounding alone leaves 1e-12 or more where the shaft carries weight."""
 
 
 @dataclass(frozen=True, eq=False)
