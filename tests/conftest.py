@@ -1,8 +1,11 @@
 """The shipped turbine and its systems, made once."""
 
+from typing import Any
+
 import pytest
 
 import offwind_pin as ow
+from offwind_pin import cli
 
 
 @pytest.fixture(scope="session")
@@ -40,3 +43,17 @@ def coarse(oc6: ow.Turbine) -> ow.System:
     """Few elements, everything acting: soil with dashpots, structural damping, waves."""
     waves = ow.IrregularWaves(2.0, 6.0, seed=3, repeat_period=60.0)
     return ow.build(oc6, "distributed_springs", waves, elements=8)
+
+
+@pytest.fixture
+def offwind(monkeypatch: pytest.MonkeyPatch, capsys: Any) -> Any:
+    """Run the command; returns exit code, standard output and standard error."""
+
+    def run(*argv: str) -> tuple[int, str, str]:
+        monkeypatch.setattr("sys.argv", ["offwind", *argv])
+        with pytest.raises(SystemExit) as stop:
+            cli.main()
+        streams = capsys.readouterr()
+        return int(stop.value.code or 0), streams.out, streams.err
+
+    return run

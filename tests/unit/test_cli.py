@@ -12,7 +12,6 @@ import xarray as xr
 import yaml
 
 import offwind_pin as ow
-from offwind_pin import cli
 from offwind_pin.campaign import run as campaign_run
 from offwind_pin.loads.morison import MorisonForce
 from offwind_pin.turbines.definition import Array
@@ -33,20 +32,6 @@ SHORT_CASE = {
     },
     "seed": 7,
 }
-
-
-@pytest.fixture
-def offwind(monkeypatch: pytest.MonkeyPatch, capsys: Any) -> Any:
-    """Run the command; returns exit code, standard output and standard error."""
-
-    def run(*argv: str) -> tuple[int, str, str]:
-        monkeypatch.setattr("sys.argv", ["offwind", *argv])
-        with pytest.raises(SystemExit) as stop:
-            cli.main()
-        streams = capsys.readouterr()
-        return int(stop.value.code or 0), streams.out, streams.err
-
-    return run
 
 
 @pytest.fixture
