@@ -115,3 +115,10 @@ def test_links_lead_somewhere() -> None:
     for page in pages:
         for target in re.findall(r"\]\((?!https?://|#)([^)#]+)", page.read_text()):
             assert (page.parent / target).exists(), f"{page.name}: {target}"
+
+
+def test_soil_of_the_docs(capsys: Any) -> None:
+    """The lines of the soil's page print what they say."""
+    block = _blocks("docs/soil.md", "python")[0]
+    exec(block, {})  # our own text
+    assert capsys.readouterr().out.strip() == block.rsplit("# ", 1)[1].strip()
