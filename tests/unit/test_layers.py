@@ -120,6 +120,9 @@ def test_public_names() -> None:
         "Pushover",
         "SciPyIVP",
         "ShapeTarget",
+
+
+        "SoilOverview",
         "SolverError",
         "StaticResult",
         "StillWater",
@@ -128,6 +131,7 @@ def test_public_names() -> None:
         "Turbine",
         "build",
         "condense",
+        "equivalent_damping",
         "export_urdf",
         "identify_soil",
         "load_turbine",
@@ -137,6 +141,8 @@ def test_public_names() -> None:
         "read_load_history",
         "shipped_turbines",
         "simulate",
+        "soil_overview",
         "static",
+        "write_soil",
     ]
     assert all(hasattr(offwind_pin, name) for name in offwind_pin.__all__)

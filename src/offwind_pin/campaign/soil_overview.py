@@ -110,7 +110,7 @@ class SoilOverview:
     model : (n,) name of the law of each node's curve
     state : of the nodes, or None where neither a result nor a load was given
     pushover : of the pile; it ends early where the soil gives way
-    macro_element : its displacement in m and rotation in rad under the pushover's loads, (t, 2)
+    macro_element : its load in N and rotation in rad at the pushover's displacements, (t, 2)
     stiffness : (6, 6) at the mudline by name, in N, m, rad
     fixity : of the turbine's apparent fixity
     damping : over amplitude and frequency at one node, by model of the damping
@@ -230,7 +230,7 @@ class SoilOverview:
                 "macro_element": None
                 if self.macro_element is None
                 else {
-                    "displacement_m": self.macro_element[:, 0].tolist(),
+                    "load_n": self.macro_element[:, 0].tolist(),
                     "rotation_rad": self.macro_element[:, 1].tolist(),
                 },
             },
@@ -291,6 +291,8 @@ def soil_overview(
     """
     if load is not None and result is not None:
         raise InputError("load and result", "both", "one of them", "Leave the other out.")
+    if arm is not None and not 0 <= arm < np.inf:
+        raise InputError("arm", arm, "a height of 0 m or more", "Give where the load acts.")
     foundation = distributed_springs(turbine)
     springs = cast(DistributedSprings, turbine.soil.distributed_springs)
     soil = cast(SoilSprings, foundation.soil[0])
@@ -311,7 +313,8 @@ def soil_overview(
     held = _attempt("macro-element", lambda: macro_element(turbine), remarks)
     followed = None
     if held is not None:
-        followed = macro_element_response(cast(MacroElement, held.root), pushed)
+        follow = partial(macro_element_response, cast(MacroElement, held.root), pushed)
+        followed = _attempt("macro-element", follow, remarks)
     damping = _dampings(springs, soil, depth, float(diameter[0]), remarks)
     return SoilOverview(
         turbine=turbine,
@@ -333,26 +336,37 @@ def soil_overview(
 
 
 def macro_element_response(element: MacroElement, pushed: Pushover) -> Array:
-    """(t, 2) displacement in m and rotation in rad of a macro-element under a pushover's loads."""
+    """(t, 2) load in N and rotation in rad of a macro-element at a pushover's displacements.
+
+    The load acts at the pushover's arm.
+    """
     memory, x = np.zeros(element.memory_size), np.zeros(6)
-    rest = np.zeros(6)
-    found: list[Array] = []
-    for load in pushed.load:
-        wanted = load * np.array([1.0, 0.0, 0.0, 0.0, pushed.arm, 0.0])
+    rest, per_load = np.zeros(6), np.array([1.0, 0.0, 0.0, 0.0, pushed.arm, 0.0])
+    found: list[tuple[float, float]] = []
+    for displacement, rotation, load in zip(
+        pushed.displacement, pushed.rotation, pushed.load, strict=True
+    ):
+        x[[0, 4]] = displacement, rotation
         for _ in range(_MOST_ITERATIONS):
-            lack = wanted - element.reaction(x, rest, memory)
-            if np.max(np.abs(lack)) <= _TOLERANCE * np.max(np.abs(wanted)):
+            reaction, (stiffness, _) = (
+                element.reaction(x, rest, memory),
+                element.tangents(x, rest, memory),
+            )
+            lack = load * per_load - reaction
+            if np.max(np.abs(lack)) <= _TOLERANCE * np.max(np.abs(reaction)):
                 break
-            x = x + np.linalg.solve(element.tangents(x, rest, memory)[0], lack)
+            step = np.linalg.solve(np.column_stack([-per_load, stiffness[:, 1:]]), lack)
+            load += step[0]
+            x[1:] += step[1:]
         else:
             raise SolverError(
-                "the macro-element does not hold a load of the pushover",
+                "the macro-element cannot follow the pushover",
                 step=len(found),
                 joint="mudline",
                 residual=float(np.max(np.abs(lack))),
             )
         element.commit(x, memory)
-        found.append(x[[0, 4]])
+        found.append((load, float(x[4])))
     return np.array(found)
 
 

@@ -209,10 +209,10 @@ def pushover_facts(soil: SoilOverview) -> list[tuple[str, str]]:
         ("mudline rotation", quantity(float(np.degrees(push.rotation[-1])), "°")),
     ]
     if soil.macro_element is not None:
-        moved = soil.macro_element[-1]
+        load, turned = soil.macro_element[-1]
         facts += [
-            ("macro-element's displacement then", quantity(moved[0], "m")),
-            ("macro-element's rotation then", quantity(float(np.degrees(moved[1])), "°")),
+            ("macro-element's load there", quantity(load / MEGA, "MN")),
+            ("macro-element's rotation there", quantity(float(np.degrees(turned)), "°")),
         ]
     return facts
 

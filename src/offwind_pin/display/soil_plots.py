@@ -171,7 +171,7 @@ def pushover_curves(push: Pushover, stiffness: Array, macro_element: Array | Non
     Parameters
     ----------
     stiffness : (6, 6) of small motions, whose tangent line is drawn
-    macro_element : (t, 2) displacement in m and rotation in rad under the same loads, or None
+    macro_element : (t, 2) load in N and rotation in rad at the same displacements, or None
     """
     figure = Figure(figsize=(FULL_WIDTH, 4.1))
     force, moment = figure.subplots(1, 2)
@@ -196,9 +196,10 @@ def pushover_curves(push: Pushover, stiffness: Array, macro_element: Array | Non
         )  # fmt: skip
         axes.plot(x, y / MEGA, "o-", ms=3.5, color=BLUE, label="distributed springs", zorder=3)
         if macro_element is not None:
-            moved = macro_element[:, 0] if i == 0 else np.degrees(macro_element[:, 1])
+            moved = x if i == 0 else np.degrees(macro_element[:, 1])
+            resisted = macro_element[:, 0] * lever / MEGA
             axes.plot(
-                moved, y / MEGA, color=VERMILLION, lw=1.4, ls=(0, (5, 2)), label="macro-element",
+                moved, resisted, color=VERMILLION, lw=1.4, ls=(0, (5, 2)), label="macro-element",
                 zorder=4,
             )  # fmt: skip
         axes.set_xlim(0, 1.03 * float(x.max()))
