@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import pytest
 from pydantic import BaseModel
 
 import offwind_pin as ow
@@ -28,9 +29,10 @@ def _unsourced(value: Any, place: str, sourced: bool) -> list[str]:
     return [found for key, part in items for found in _unsourced(part, f"{place}.{key}", sourced)]
 
 
-def test_every_number_of_the_shipped_turbine_has_a_source(oc6: ow.Turbine) -> None:
+@pytest.mark.parametrize("name", ow.shipped_turbines())
+def test_every_number_of_a_shipped_turbine_has_a_source(name: str) -> None:
     """Each block of numbers, or a block around it, names its source."""
-    assert _unsourced(oc6, "oc6_phase2", sourced=False) == []
+    assert _unsourced(ow.load_turbine(name), name, sourced=False) == []
 
 
 def test_a_missing_source_is_found(oc6: ow.Turbine) -> None:
