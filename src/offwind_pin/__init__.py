@@ -9,10 +9,8 @@
 
 from offwind_pin.analysis.build import build
 from offwind_pin.analysis.condensation import Condensation, condense
-from offwind_pin.analysis.identify import Identification, Parameter, identify_soil
-
-
 from offwind_pin.analysis.equivalent_damping import equivalent_damping
+from offwind_pin.analysis.identify import Identification, Parameter, identify_soil
 from offwind_pin.analysis.integrators import GeneralizedAlpha, SciPyIVP
 from offwind_pin.analysis.modal import ModalResult, modes
 from offwind_pin.analysis.pile import pile_only
@@ -50,8 +48,6 @@ __all__ = [
     "Pushover",
     "SciPyIVP",
     "ShapeTarget",
-
-
     "SoilOverview",
     "SolverError",
     "StaticResult",

@@ -120,8 +120,6 @@ def test_public_names() -> None:
         "Pushover",
         "SciPyIVP",
         "ShapeTarget",
-
-
         "SoilOverview",
         "SolverError",
         "StaticResult",
