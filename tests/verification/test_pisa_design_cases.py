@@ -11,7 +11,9 @@ import math
 
 import numpy as np
 import pytest
+from helpers.soils import with_springs
 
+import offwind_pin as ow
 from offwind_pin.loads.ground import Ground
 from offwind_pin.loads.soil_families import (
     base_moment_curve,
@@ -20,6 +22,8 @@ from offwind_pin.loads.soil_families import (
     rocking_curves,
 )
 from offwind_pin.turbines.base import Array
+from offwind_pin.turbines.definition import Member, Station
+from offwind_pin.turbines.soil import DistributedSprings
 from offwind_pin.turbines.soil_layers import LayeredGround
 
 TILL = LayeredGround.model_validate(
@@ -120,3 +124,34 @@ def test_each_reaction_counts() -> None:
     """Negative control: with lateral springs alone a short pile carries clearly less."""
     pile, published = CASES["D1"]
     assert load_at_a_tenth(*pile, all_reactions=False) < published - 1e6
+
+
+def turbine_on(oc6: ow.Turbine, diameter: float, thickness: float, length: float) -> ow.Turbine:
+    """A turbine whose pile stands in the till, 61 nodes along it."""
+    mudline = oc6.site.mudline
+    ends = (mudline - length, mudline + 1.0)
+    stations = [Station(z_m=z, diameter_m=diameter, thickness_m=thickness) for z in ends]
+    springs = DistributedSprings.model_validate(
+        {
+            "nodes": 61,
+            "curve": TILL.model_dump(),
+            "toe_vertical_stiffness_n_per_m": 1e10,
+            "toe_torsional_stiffness_nm_per_rad": 1e11,
+        }
+    )
+    pile = Member(name="monopile", material="steel", stations=tuple(stations))
+    return with_springs(oc6.model_copy(update={"members": (pile,)}), springs)
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_the_chain_meets_the_published_load(oc6: ow.Turbine, case: str) -> None:
+    """The package's own pushover, elements that shear: within 5 % of the published model, and within
+    1 % of the beam above."""
+    (diameter, thickness, length, arm), published = CASES[case]
+    turbine = turbine_on(oc6, diameter, thickness, length)
+    push = ow.pushover(turbine, arm, elements=45, element="timoshenko", points=8)
+    assert push.displacement[-1] == pytest.approx(diameter / 10, rel=1e-6)
+    assert push.load[-1] == pytest.approx(published, rel=0.05)
+    assert push.load[-1] == pytest.approx(
+        load_at_a_tenth(diameter, thickness, length, arm), rel=0.01
+    )

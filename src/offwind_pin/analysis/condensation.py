@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Literal, get_args
 
@@ -108,7 +109,7 @@ def condense(
     q, rest = about.q[: pile.nv], np.zeros(pile.nv)
     load = about.mudline_load
     if system.chain.top == pile.chain.top:  # the topmost section has its own node's soil above it
-        load = load - _soil_at_head(pile, q)
+        load = load - _soil_at_head(pile, q, about.memory)
     acting = [constant_load(pile.chain.top, load)]
     equations = pile.equations(acting, np.inf, about.memory)
     lack = float(np.max(np.abs(equations.residual(0.0, q, rest, rest)))) / load_scale(system)
@@ -116,11 +117,10 @@ def condense(
         allowed = "a static state of this system, in balance"
         raise InputError("about", f"{lack:.2g} of the loads", allowed, "Solve statics anew.")
     if stiffness == "secant":
-        motion, soil = equations.chain_motion(q, rest), pile.foundation.soil
-        memories = split_memory(soil, as_kernel_restraint(pile.foundation.root), about.memory)
+        motion = equations.chain_motion(q, rest)
         soil = tuple(
             SecantSprings.of(springs, motion.points_at(springs.height), past)
-            for springs, past in zip(soil, memories[:-1], strict=True)
+            for springs, past in _soil_and_past(pile, about.memory)
         )
         pile = replace(pile, foundation=replace(pile.foundation, soil=soil))
         equations = pile.equations(acting, ramp_time=np.inf)
@@ -153,9 +153,8 @@ class SecantSprings:
     name: str = "secant soil"
 
     @staticmethod
-    def of(springs: PointLoad, motion: PointMotion, memory: Array) -> SecantSprings:
+    def of(springs: PointLoad, motion: PointMotion, past: dict[str, Array]) -> SecantSprings:
         """Secants of springs in a state, across and along the pile; tangents at rest."""
-        past = {"memory": memory} if isinstance(springs, KernelLoad) else {}
         forces = springs.forces(0.0, motion, 0.0, **past)
         blocks = springs.tangents(0.0, motion, 0.0, **past).blocks()
         turn = np.zeros_like(motion.axis) if motion.turn is None else motion.turn
@@ -188,15 +187,22 @@ def _secants(pull: Array, moved: Array, tangents: Array) -> Array:
     return result
 
 
-def _soil_at_head(pile: System, q: Array) -> Array:
+def _soil_at_head(pile: System, q: Array, memory: Array) -> Array:
     """(6,) force and moment of the soil at the node that lies at the mudline, in N and N m."""
     motion = pile.equations([], ramp_time=np.inf).chain_motion(q, np.zeros(pile.nv))
     total = np.zeros(6)
-    for springs in pile.foundation.soil:
-        found = springs.forces(0.0, motion.points_at(springs.height), 0.0)
+    for springs, past in _soil_and_past(pile, memory):
+        found = springs.forces(0.0, motion.points_at(springs.height), 0.0, **past)
         at_head = springs.height == pile.chain.top
         total += np.concatenate([found.force[at_head].sum(0), found.moment[at_head].sum(0)])
     return total
+
+
+def _soil_and_past(pile: System, memory: Array) -> Iterator[tuple[PointLoad, dict[str, Array]]]:
+    """Each load of the soil, with what it keeps of its past as an argument if it keeps anything."""
+    soil, root = pile.foundation.soil, as_kernel_restraint(pile.foundation.root)
+    for springs, past in zip(soil, split_memory(soil, root, memory)[:-1], strict=True):
+        yield springs, {"memory": past} if isinstance(springs, KernelLoad) else {}
 
 
 def _displacement(pile: System, about: StaticResult) -> Array:
