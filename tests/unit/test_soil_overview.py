@@ -342,6 +342,16 @@ def test_pictures_show_the_numbers(overview: ow.SoilOverview) -> None:
     assert len(panels[2].lines) == 2
 
 
+def test_pushover_without_an_arm() -> None:
+    """There is no moment to draw: the load stands over the rotation too."""
+    grid = np.linspace(0, 1, 5)
+    pushed = Pushover(0.0, 1e6 * grid, 0 * grid, grid, grid)
+    force, moment = soil_plots.pushover_curves(pushed, np.diag(np.full(6, 1e6))).axes
+    assert moment.get_ylabel() == force.get_ylabel()
+    assert_allclose(moment.lines[1].get_ydata(), grid)
+    assert_allclose(moment.lines[1].get_xdata(), np.degrees(grid))
+
+
 def test_state_of_curves_without_an_end() -> None:
     """Linear curves are never used up: the picture says so."""
     ones = np.ones(3)

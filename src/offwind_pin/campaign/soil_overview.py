@@ -301,7 +301,7 @@ def soil_overview(
     stiffness = {"tangent_unloaded": condensed_stiffness(turbine)}
     state = None
     if result is not None:
-        state = SoilState.of(soil.curves, _reached(turbine, soil, result), f"run in {result}")
+        state = SoilState.of(soil.curves, _reached(turbine, soil, result), _of_run(result))
     if load is not None:
         system = assemble(turbine, foundation, elements=elements)
         found = static(system, load)
@@ -429,6 +429,13 @@ def _static_reached(system: System, soil: SoilSprings, state: StaticResult) -> A
     rest = np.zeros(system.nv)
     motion = system.equations([], ramp_time=np.inf).chain_motion(state.q, rest)
     return np.asarray(np.hypot(*motion.points_at(soil.height).displacement[:, :2].T))
+
+
+def _of_run(directory: Path) -> str:
+    return (
+        f"largest displacements after the ramp of the run in {directory}, linear between the "
+        "heights that it recorded"
+    )
 
 
 def _of_load(load: Array) -> str:

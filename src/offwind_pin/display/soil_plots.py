@@ -166,7 +166,7 @@ def state_over_depth(
 
 @styled
 def pushover_curves(push: Pushover, stiffness: Array, macro_element: Array | None = None) -> Figure:
-    """Load over displacement and moment over rotation at the mudline.
+    """Load over displacement and moment over rotation at the mudline; load if it has no arm.
 
     Parameters
     ----------
@@ -176,22 +176,23 @@ def pushover_curves(push: Pushover, stiffness: Array, macro_element: Array | Non
     figure = Figure(figsize=(FULL_WIDTH, 4.1))
     force, moment = figure.subplots(1, 2)
     linear = np.linalg.solve(stiffness, np.array([1.0, 0, 0, 0, push.arm, 0]))
+    turning = push.arm > 0
     quantities = (
-        (force, push.displacement, push.load, linear[0], 1.0, "displacement, m", "load H, MN"),
+        (force, push.displacement, linear[0], 1.0, "displacement, m", "load H, MN"),
         (
             moment,
             np.degrees(push.rotation),
-            push.moment,
             np.degrees(linear[4]),
-            push.arm,
+            push.arm if turning else 1.0,
             "rotation, °",
-            "moment M, MN m",
+            "moment M, MN m" if turning else "load H, MN",
         ),
     )
-    for i, (axes, x, y, flexibility, lever, across, up) in enumerate(quantities):
+    for i, (axes, x, flexibility, lever, across, up) in enumerate(quantities):
+        y = push.load * lever
         top = 1.08 * float(y.max()) / MEGA
         axes.plot(
-            [0, flexibility * top * MEGA / lever if lever else 0], [0, top], color=MUTED, lw=1.1,
+            [0, flexibility * top * MEGA / lever], [0, top], color=MUTED, lw=1.1,
             ls=(0, (4, 2)), label=f"6{TIMES}6 of small motions", zorder=2,
         )  # fmt: skip
         axes.plot(x, y / MEGA, "o-", ms=3.5, color=BLUE, label="distributed springs", zorder=3)
@@ -203,12 +204,12 @@ def pushover_curves(push: Pushover, stiffness: Array, macro_element: Array | Non
                 zorder=4,
             )  # fmt: skip
         axes.set_xlim(0, 1.03 * float(x.max()))
-        axes.set_ylim(0, top if top > 0 else 1)
+        axes.set_ylim(0, top)
         axes.set_xlabel(f"mudline {across}")
         axes.set_ylabel(up)
         axes.grid()
     force.set_title("Load over displacement")
-    moment.set_title("Moment over rotation")
+    moment.set_title("Moment over rotation" if turning else "Load over rotation")
     force.legend(loc="lower right")
     return figure
 
