@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Any, Literal, TypeVar, cast
+from typing import Any, TypeVar, cast
 
 import numpy as np
 import xarray as xr
@@ -20,23 +20,33 @@ from offwind_pin.analysis.equivalent_foundations import (
     macro_element,
 )
 from offwind_pin.analysis.pushover import Pushover, pushover
-from offwind_pin.analysis.static import StaticResult, static
-from offwind_pin.display.plots import soil_displacement_reached
+from offwind_pin.analysis.static import static
+from offwind_pin.campaign.soil_damping import damping_model, damping_models, damping_node
+from offwind_pin.campaign.soil_springs import (
+    OtherSprings,
+    describe_springs,
+    finite,
+    sampled,
+    units_of,
+)
+from offwind_pin.campaign.soil_state import (
+    SoilState,
+    reached_in_run,
+    reached_statically,
+    told_of_load,
+    told_of_run,
+)
 from offwind_pin.dynamics.foundations import Foundation, distributed_springs
 from offwind_pin.dynamics.macro_element import MacroElement
-from offwind_pin.dynamics.system import System
 from offwind_pin.errors import InputError, SolverError
-from offwind_pin.loads.dashpots import NO_DASHPOT, Dashpot
 from offwind_pin.loads.frictional_moment import FrictionalMoment
 from offwind_pin.loads.ground import Ground, layer_index
-from offwind_pin.loads.hysteretic import HystereticSprings
-from offwind_pin.loads.soil import ROCKING, TORSIONAL, SoilSprings
-from offwind_pin.loads.soil_curves import TABLE, SoilCurves
+from offwind_pin.loads.soil import SoilSprings
 from offwind_pin.structure.section import outer_diameter
 from offwind_pin.structure.urdf import definition_hash
 from offwind_pin.turbines.base import Array
 from offwind_pin.turbines.definition import Turbine
-from offwind_pin.turbines.soil import DistributedSprings, Hysteresis, SoilDashpot
+from offwind_pin.turbines.soil import DistributedSprings
 from offwind_pin.turbines.soil_layers import LayeredGround
 
 Made = TypeVar("Made")
@@ -45,36 +55,6 @@ _FREQUENCIES = (0.1, 0.25, 1.0)
 """Hz: of waves, and of a monopile turbine's first and second bending modes, roughly."""
 _AMPLITUDES = np.geomspace(1e-5, 1e-2, 25)
 """Over the pile's diameter; at a tenth of it, a monopile counts as failed."""
-_SLIDERS = Hysteresis(sliders=60)
-_SAMPLED = np.concatenate([[0.0], np.geomspace(1e-6, 0.25, 100)])
-"""Deflections of the exported curves, over the diameter, or in rad."""
-
-
-@dataclass(frozen=True, eq=False)
-class SoilState:
-    """What the lateral springs have been through.
-
-    Attributes
-    ----------
-    origin : where it comes from, in words
-    displacement : (n,) largest lateral displacement of each node in m
-    resistance : (n,) p there in N/m
-    secant : (n,) p / y there in N/m2
-    utilisation : (n,) p over the ultimate resistance; not a number where there is none
-    """
-
-    origin: str
-    displacement: Array
-    resistance: Array
-    secant: Array
-    utilisation: Array
-
-    @staticmethod
-    def of(curves: SoilCurves, displacement: Array, origin: str) -> SoilState:
-        resistance, ultimate = curves.resistance(displacement), curves.ultimate
-        used = np.full_like(resistance, np.nan)
-        np.divide(resistance, ultimate, out=used, where=(ultimate > 0) & np.isfinite(ultimate))
-        return SoilState(origin, displacement, resistance, curves.secant(displacement), used)
 
 
 @dataclass(frozen=True)
@@ -135,10 +115,9 @@ class SoilOverview:
     remarks: tuple[str, ...]
 
     @property
-    def others(self) -> tuple[SoilSprings | FrictionalMoment, ...]:
+    def others(self) -> tuple[OtherSprings, ...]:
         """All other springs that follow curves."""
-        kinds = (SoilSprings, FrictionalMoment)
-        return tuple(load for load in self.foundation.soil[1:] if isinstance(load, kinds))
+        return tuple(load for load in self.foundation.soil[1:] if isinstance(load, OtherSprings))
 
     @property
     def head_diameter(self) -> float:
@@ -153,14 +132,14 @@ class SoilOverview:
     @property
     def damping_depth(self) -> float:
         """Depth below the mudline in m of the spring whose damping is told."""
-        return float(self.depth[_damping_node(self.lateral, self.depth, self.head_diameter)])
+        return float(self.depth[damping_node(self.lateral, self.depth, self.head_diameter)])
 
     def lateral_curves(self) -> list[tuple[float, float, float]]:
         """Depth in m, y in m and p in N/m of every node, as a curve table has them."""
         return [
             (float(depth), y, p)
             for depth, points in zip(
-                self.depth, _sampled(self.lateral.curves, self.head_diameter), strict=True
+                self.depth, sampled(self.lateral.curves, self.head_diameter), strict=True
             )
             for y, p in points
         ]
@@ -173,11 +152,11 @@ class SoilOverview:
         """
         rows = []
         for load in self.others:
-            turns, units = _units(load)
+            turns, units = units_of(load)
             curves = load.lever if isinstance(load, FrictionalMoment) else load.curves
             scale = 1.0 if turns else self.head_diameter
             depth = self.turbine.site.mudline - load.height
-            for below, points in zip(depth, _sampled(curves, scale), strict=True):
+            for below, points in zip(depth, sampled(curves, scale), strict=True):
                 rows += [(load.name, float(below), y, units[0], p, units[1]) for y, p in points]
         return rows
 
@@ -194,14 +173,14 @@ class SoilOverview:
                 "tributary_length_m": float(soil.tributary_length[i]),
                 "model": model,
                 "initial_modulus_n_per_m2": float(initial[i]),
-                "ultimate_resistance_n_per_m": _finite(ultimate[i]),
+                "ultimate_resistance_n_per_m": finite(ultimate[i]),
             }
             if state is not None:
                 row |= {
                     "displacement_m": float(state.displacement[i]),
                     "resistance_n_per_m": float(state.resistance[i]),
                     "secant_stiffness_n_per_m2": float(state.secant[i]),
-                    "utilisation": _finite(state.utilisation[i]),
+                    "utilisation": finite(state.utilisation[i]),
                 }
             rows.append(row)
         return rows
@@ -217,7 +196,9 @@ class SoilOverview:
             "remarks": list(self.remarks),
             "scour_depth_m": self.turbine.site.scour_depth,
             "nodes": self.nodes(),
-            "other_springs": [_other(load, self.turbine.site.mudline) for load in self.others],
+            "other_springs": [
+                describe_springs(load, self.turbine.site.mudline) for load in self.others
+            ],
             "toe_vertical_stiffness_n_per_m": springs.toe_vertical_stiffness,
             "toe_torsional_stiffness_nm_per_rad": springs.toe_torsional_stiffness,
             "state": self._state(),
@@ -301,11 +282,15 @@ def soil_overview(
     stiffness = {"tangent_unloaded": condensed_stiffness(turbine)}
     state = None
     if result is not None:
-        state = SoilState.of(soil.curves, _reached(turbine, soil, result), _of_run(result))
+        state = SoilState.of(
+            soil.curves, reached_in_run(turbine, soil, result), told_of_run(result)
+        )
     if load is not None:
         system = assemble(turbine, foundation, elements=elements)
         found = static(system, load)
-        state = SoilState.of(soil.curves, _static_reached(system, soil, found), _of_load(load))
+        state = SoilState.of(
+            soil.curves, reached_statically(system, soil, found), told_of_load(load)
+        )
         for kind in ("tangent", "secant"):
             stiffness[f"{kind}_loaded"] = condense(system, found, stiffness=kind).symmetric
     remarks: list[str] = []
@@ -315,7 +300,8 @@ def soil_overview(
     if held is not None:
         follow = partial(macro_element_response, cast(MacroElement, held.root), pushed)
         followed = _attempt("macro-element", follow, remarks)
-    damping = _dampings(springs, soil, depth, float(diameter[0]), remarks)
+    node = damping_node(soil, depth, float(diameter[0]))
+    models = damping_models(springs, soil, node)
     return SoilOverview(
         turbine=turbine,
         springs=springs,
@@ -329,8 +315,8 @@ def soil_overview(
         macro_element=followed,
         stiffness=stiffness,
         fixity=_attempt("apparent fixity", lambda: _fixity(turbine), remarks),
-        damping=damping,
-        damping_model=_damping_model(springs),
+        damping=_dampings(models, float(diameter[0]), remarks),
+        damping_model=damping_model(springs),
         remarks=tuple(remarks),
     )
 
@@ -384,70 +370,6 @@ def _models(
     return tuple(layers[i].model for i in layer_index(layers, ground))
 
 
-def _reached(turbine: Turbine, soil: SoilSprings, directory: Path) -> Array:
-    """Largest displacement of each node after the ramp of a run."""
-    path = directory / "results.nc"
-    where = str(path)
-    if not path.is_file():
-        raise InputError(where, "no such file", "results.nc of a run", "Give the --out of a run.")
-    try:
-        histories = xr.open_dataset(path, engine="netcdf4")
-    except OSError as error:
-        raise InputError(where, str(error), "a NetCDF file", "Run the case again.") from None
-    with histories:
-        if not {"displacement", "time", "height"} <= set(histories.variables):
-            allowed = "displacement over time and height, as a transient has them"
-            raise InputError(
-                where, list(histories.data_vars), allowed, "Give a transient's result."
-            )
-        name, made_of = histories.attrs.get("turbine"), histories.attrs.get("definition_sha256")
-        if name != turbine.name:
-            raise InputError(
-                where, f"a result of turbine {name}", turbine.name, "Give a result of this turbine."
-            )
-        if made_of != definition_hash(turbine):
-            allowed = "one of the definition as it is now"
-            raise InputError(where, f"a result of another {name}", allowed, "Run the case again.")
-        if float(histories.height.min()) > float(soil.height.min()) + _SAME_HEIGHT:
-            raise InputError(
-                where,
-                f"a result on {histories.attrs.get('foundation')}, down to "
-                f"{float(histories.height.min()):g} m",
-                "one on distributed_springs, down to the toe",
-                "Run the case on distributed_springs.",
-            )
-        if float(histories.time[-1]) < float(histories.attrs.get("ramp_s", 0.0)):
-            raise InputError(where, "a run that ended in its ramp", "a longer one", "Run it on.")
-        return soil_displacement_reached(histories, soil)
-
-
-_SAME_HEIGHT = 1e-6
-
-
-def _static_reached(system: System, soil: SoilSprings, state: StaticResult) -> Array:
-    """Lateral displacement of each node in a static state, of the chain's own axis."""
-    rest = np.zeros(system.nv)
-    motion = system.equations([], ramp_time=np.inf).chain_motion(state.q, rest)
-    return np.asarray(np.hypot(*motion.points_at(soil.height).displacement[:, :2].T))
-
-
-def _of_run(directory: Path) -> str:
-    return (
-        f"largest displacements after the ramp of the run in {directory}, linear between the "
-        "heights that it recorded"
-    )
-
-
-def _of_load(load: Array) -> str:
-    parts = zip(("Fx", "Fy", "Fz", "Mx", "My", "Mz"), load, strict=True)
-    told = ", ".join(
-        f"{name} = {value / 1e6:g} {'MN' if name[0] == 'F' else 'MN m'}"
-        for name, value in parts
-        if value
-    )
-    return f"static state under gravity and {told or 'no load'} at the yaw bearing"
-
-
 _PUSHOVER = "pushover"
 
 
@@ -479,54 +401,17 @@ def _fixity(turbine: Turbine) -> Fixity:
     return Fixity(length, bending, facts["load_arm_m"], cantilever, whole[np.ix_([0, 4], [0, 4])])
 
 
-def _damping_model(springs: DistributedSprings) -> str | None:
-    if springs.hysteretic is not None:
-        return "sliders"
-    return None if springs.dashpot is None else f"{springs.dashpot.stiffness}_dashpot"
-
-
 def _dampings(
-    springs: DistributedSprings,
-    soil: SoilSprings,
-    depth: Array,
-    diameter: float,
-    remarks: list[str],
+    models: dict[str, SoilSprings], diameter: float, remarks: list[str]
 ) -> dict[str, xr.Dataset]:
-    """Damping of the node nearest to one diameter of depth, by model.
-
-    The turbine's own numbers, and what the other models make of its factor and its curve.
-    """
-    node = _damping_node(soil, depth, diameter)
-    curves = SoilCurves(soil.curves.numbers[[node]])
-    parts = (soil.name, soil.direction, soil.height[[node]], soil.tributary_length[[node]], curves)
-    models: dict[str, SoilSprings] = {}
-    dashpot = springs.dashpot
-    if dashpot is not None:
-        models["secant_dashpot"] = SoilSprings(*parts, Dashpot.of(_of_stiffness(dashpot, "secant")))
-        if isinstance(dashpot.damping_factor, float):
-            constant = Dashpot.of(_of_stiffness(dashpot, "initial"))
-            models["initial_dashpot"] = SoilSprings(*parts, constant)
-    beside = soil.dashpot if springs.hysteretic is not None else NO_DASHPOT
-    sliders = (springs.hysteretic or _SLIDERS).sliders
-    models["sliders"] = HystereticSprings(*parts, beside, sliders)
-    amplitudes = _AMPLITUDES * diameter
+    """Equivalent damping by model, of those that can follow the spring's curve."""
     found = {}
     for name, model in models.items():
-        drive = partial(equivalent_damping, model, amplitudes, _FREQUENCIES, node=0)
+        drive = partial(equivalent_damping, model, _AMPLITUDES * diameter, _FREQUENCIES, node=0)
         data = _attempt(f"damping, {name.replace('_', ' ')}", drive, remarks)
         if data is not None:
             found[name] = data
     return found
-
-
-def _damping_node(soil: SoilSprings, depth: Array, diameter: float) -> int:
-    """The node at which the soil resists that is nearest to a diameter of depth."""
-    resists = np.flatnonzero(soil.curves.secant(np.zeros(len(depth))) > 0)
-    return int(resists[np.argmin(np.abs(depth[resists] - diameter))])
-
-
-def _of_stiffness(dashpot: SoilDashpot, stiffness: Literal["secant", "initial"]) -> SoilDashpot:
-    return dashpot.model_copy(update={"stiffness": stiffness})
 
 
 def _damping(found: xr.Dataset) -> dict[str, Any]:
@@ -537,49 +422,3 @@ def _damping(found: xr.Dataset) -> dict[str, Any]:
         "damping_ratio": found.damping_ratio.values.tolist(),
         "secant_stiffness_n_per_m": found.secant_stiffness.values.tolist(),
     }
-
-
-def _sampled(curves: SoilCurves, scale: float) -> list[list[tuple[float, float]]]:
-    """Points of each curve; of a table its own, elsewhere so that chords stay close."""
-    rows = curves.numbers
-    tables = [row[2 : 2 + int(row[1])] for row in rows if row[0] == TABLE]
-    whole = len(tables) == len(rows)
-    grid = np.unique(np.concatenate([*tables, [] if whole else scale * _SAMPLED]))
-    resistance = np.array([curves.resistance(np.full(len(rows), y)) for y in grid])
-    return [list(zip(grid.tolist(), column.tolist(), strict=True)) for column in resistance.T]
-
-
-def _units(load: SoilSprings | FrictionalMoment) -> tuple[bool, tuple[str, str]]:
-    """Whether it resists rotation, and the units of deflection and resistance."""
-    if isinstance(load, FrictionalMoment):
-        return True, ("rad", "m")
-    turns = load.direction in (ROCKING, TORSIONAL)
-    at_toe = load.name in _AT_TOE
-    units = {
-        (False, False): ("m", "N/m"),
-        (False, True): ("m", "N"),
-        (True, False): ("rad", "N m/m"),
-        (True, True): ("rad", "N m"),
-    }
-    return turns, units[turns, at_toe]
-
-
-_AT_TOE = ("soil_base_shear", "soil_base_moment", "soil_bearing")
-
-
-def _other(load: SoilSprings | FrictionalMoment, mudline: float) -> dict[str, Any]:
-    """A load of the soil besides the lateral springs, by its nodes."""
-    _, units = _units(load)
-    curves = load.lever if isinstance(load, FrictionalMoment) else load.curves
-    return {
-        "name": load.name,
-        "deflection_unit": units[0],
-        "resistance_unit": units[1],
-        "depth_m": (mudline - load.height).tolist(),
-        "initial_stiffness": curves.secant(np.zeros(len(load.height))).tolist(),
-        "ultimate": [_finite(value) for value in curves.ultimate],
-    }
-
-
-def _finite(value: float) -> float | None:
-    return float(value) if np.isfinite(value) else None
