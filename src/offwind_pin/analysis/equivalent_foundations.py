@@ -31,7 +31,7 @@ from offwind_pin.turbines.definition import Material, Member, Station, Turbine
 from offwind_pin.turbines.soil import ApparentFixity, MacroElementCalibration, StiffnessSource
 
 _APPARENT = "apparent_pile"
-_FIRST_SHARE = 1e-4
+_FIRST_SHARE = 1e-6
 """Of the largest displacement, at which the first yield surface of a pushover lies."""
 _COLUMNS = ("horizontal_load_n", "displacement_m", "rotation_rad")
 

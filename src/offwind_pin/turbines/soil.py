@@ -298,7 +298,7 @@ class MacroElementCalibration(Definition):
     rotation_rad``, whose moment is the load times the arm, and the 6x6 is that of coupled_springs.
     """
 
-    surfaces: Annotated[int, Field(ge=5, le=200)] = 30
+    surfaces: Annotated[int, Field(ge=5, le=200)] = 40
     load_arm: NonNegative | None = Field(alias="load_arm_m", default=None)
     until_displacement: Positive | None = Field(alias="until_displacement_m", default=None)
     file: Path | None = None
