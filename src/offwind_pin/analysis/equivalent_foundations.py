@@ -140,7 +140,7 @@ def macro_element(turbine: Turbine) -> Foundation:
     else:
         mudline = turbine.site.mudline
         diameter = float(outer_diameter(turbine, np.array([mudline]))[0])
-        furthest = calibration.until_displacement or diameter / 100
+        furthest = calibration.until_displacement or diameter / 10
         at = np.geomspace(_FIRST_SHARE * furthest, furthest, calibration.surfaces)
         pushed = pushover(_undamped(turbine), arm, displacements=at)
         load, displacement, rotation = pushed.load[1:], pushed.displacement[1:], pushed.rotation[1:]

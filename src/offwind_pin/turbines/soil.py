@@ -293,7 +293,7 @@ class MacroElementCalibration(Definition):
     """A monotonic loading of the mudline that a macro-element of some yield surfaces follows.
 
     It is a pushover of the distributed springs by a load at ``load_arm`` above the mudline, by
-    default at the yaw bearing, up to ``until_displacement``, by default a hundredth of the diameter.
+    default at the yaw bearing, up to ``until_displacement``, by default a tenth of the diameter.
     Or it is read from a CSV ``file`` with columns ``horizontal_load_n, displacement_m,
     rotation_rad``, whose moment is the load times the arm, and the 6x6 is that of coupled_springs.
     """
