@@ -9,8 +9,9 @@ import numpy as np
 from offwind_pin.dynamics.kinematics import AxisPoints, ChainMotion
 from offwind_pin.dynamics.system import System
 from offwind_pin.errors import InputError
+from offwind_pin.results.wisdem_springs import WisdemPile
 from offwind_pin.structure.model import Scratch, build_model
-from offwind_pin.structure.section import diameter_and_thickness, lump
+from offwind_pin.structure.section import diameter_and_thickness, lump, pieces
 from offwind_pin.turbines.definition import Array, Member, RigidBodyRNA, Station, Turbine
 from offwind_pin.turbines.rna import lump_rna
 
@@ -38,13 +39,7 @@ def pile_only(turbine: Turbine, stick_up: float = 0.0) -> Turbine:
     InputError : no pile below the mudline, or a stick-up that ends off the structure
     """
     mudline = turbine.site.mudline
-    if turbine.toe >= mudline:
-        raise InputError(
-            f"turbine {turbine.name}, field members",
-            f"a lowest station at z_m = {turbine.toe}",
-            f"a pile that reaches below the mudline (z = {mudline} m)",
-            "Add a station at the toe.",
-        )
+    _check_pile(turbine)
     longest = turbine.yaw_bearing - mudline
     if not 0 <= stick_up <= longest:
         raise InputError("stick_up", stick_up, f"0 to {longest} m", "Cut within the structure.")
@@ -58,6 +53,60 @@ def pile_only(turbine: Turbine, stick_up: float = 0.0) -> Turbine:
             "structural_damping": None,
         }
     )
+
+
+def wisdem_pile(turbine: Turbine, *, shear: bool = True) -> WisdemPile:
+    """The embedded pile as WISDEM has it, for its springs.
+
+    Its shear area is WISDEM's own (``Tube`` in ``wisdem/commonse/cross_sections.py``), a polynomial
+    in the ratio of the radii that does not follow Poisson's ratio.
+
+    Parameters
+    ----------
+    shear : WISDEM's Frame3DD option of that name; without it the pile is stiff in shear
+
+    Raises
+    ------
+    InputError : no pile below the mudline, or one whose section or material changes there
+    """
+    mudline = turbine.site.mudline
+    _check_pile(turbine)
+    sections = {
+        (*np.concatenate(diameter_and_thickness(member, np.array([z]))).tolist(), member.material)
+        for bottom, top, member in pieces(turbine, turbine.toe, mudline)
+        for z in (bottom, top)
+    }
+    if len(sections) > 1:
+        raise InputError(
+            f"turbine {turbine.name}, field members",
+            f"{len(sections)} different sections below the mudline",
+            "one section and material",
+            "Give a WisdemPile of the section that WISDEM's pile shall have.",
+        )
+    diameter, thickness, name = sections.pop()
+    material = turbine.materials[name]
+    inner = diameter - 2 * thickness
+    area, inertia = np.pi / 4 * (diameter**2 - inner**2), np.pi / 64 * (diameter**4 - inner**4)
+    ratio = inner / diameter
+    shear_area = area / (1.124235 + 0.055610 * ratio + 1.097134 * ratio**2 - 0.630057 * ratio**3)
+    return WisdemPile(
+        length=mudline - turbine.toe,
+        bending=material.youngs_modulus * inertia,
+        shear=material.shear_modulus * shear_area if shear else np.inf,
+        axial=material.youngs_modulus * area,
+        torsional=material.shear_modulus * 2 * inertia,
+    )
+
+
+def _check_pile(turbine: Turbine) -> None:
+    mudline = turbine.site.mudline
+    if turbine.toe >= mudline:
+        raise InputError(
+            f"turbine {turbine.name}, field members",
+            f"a lowest station at z_m = {turbine.toe}",
+            f"a pile that reaches below the mudline (z = {mudline} m)",
+            "Add a station at the toe.",
+        )
 
 
 def _below(member: Member, head: float) -> Member:

@@ -3,10 +3,7 @@
 Order x, y, z, rx, ry, rz in N, m, rad; kg, m for masses. Numbers are printed with 17 significant
 digits, so that reading gives back the same.
 
-WISDEM has no place for a 6x6: the springs of its monopile (``wisdem/fixed_bottomse/monopile.py``,
-input ``k_soil``) are diagonal and act at every node of the embedded pile, and the user's own
-(``k_usr`` of ``TowerSoil`` in ``wisdem/commonse/environment.py``) are put at each of those nodes
-alike. The coupling of sway and rocking, half of what a pile is, cannot be told to it.
+WISDEM has no place for a 6x6; ``wisdem_springs`` tells it as springs along its pile.
 """
 
 from __future__ import annotations
@@ -69,7 +66,7 @@ def write_subdyn_ssi(
         ("M", "Mass in kg, kg m and kg m2", np.zeros((6, 6)) if mass is None else mass),
     ]
     for letter, what, given in parts:
-        matrix = _symmetric(given, {"K": "stiffness", "M": "mass"}[letter])
+        matrix = symmetric_matrix(given, {"K": "stiffness", "M": "mass"}[letter])
         lines.append(f"! {what}: the upper triangle, column by column")
         lines += [f"{matrix[i, j]: .16E}  {_entry(letter, i, j)}" for i, j in _UPPER]
     write_text(path, "\n".join(lines) + "\n")
@@ -209,7 +206,8 @@ def _matrix(given: ArrayLike, where: str) -> Array:
     return matrix
 
 
-def _symmetric(given: ArrayLike, where: str) -> Array:
+def symmetric_matrix(given: ArrayLike, where: str) -> Array:
+    """(6, 6) without what rounding made unsymmetric; an InputError on any other."""
     matrix = _matrix(given, where)
     size = np.sqrt(np.abs(np.diag(matrix)))
     difference = np.abs(matrix - matrix.T)
