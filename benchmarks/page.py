@@ -25,6 +25,7 @@ Report = dict[str, Any]
 NAMES = {
     "step_cost": "Cost of a step",
     "real_time": "Real time",
+    "soil_cost": "What the soil costs",
     "work_precision": "Work and precision",
     "peers": "Other codes",
     "pure_python": "The pure-Python core",

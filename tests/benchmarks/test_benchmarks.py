@@ -11,7 +11,7 @@ import pytest
 # The benchmarks are a folder of scripts; they find one another as they do when run.
 FOLDER = Path(__file__).parents[2] / "benchmarks"
 sys.path.insert(0, str(FOLDER))
-cases_per_hour, memory, page, real_time, run_all, step_cost, work_precision = (
+cases_per_hour, memory, page, real_time, run_all, soil_cost, step_cost, work_precision = (
     importlib.import_module(name)
     for name in (
         "cases_per_hour",
@@ -19,6 +19,7 @@ cases_per_hour, memory, page, real_time, run_all, step_cost, work_precision = (
         "page",
         "real_time",
         "run_all",
+        "soil_cost",
         "step_cost",
         "work_precision",
     )
@@ -40,6 +41,7 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
     run(step_cost, "step_cost", "--elements 8 12 --seconds 1 --steps 20")
     run(real_time, "real_time", "--seconds 2 --no-command")
+    run(soil_cost, "soil_cost", "--seconds 2 --steps 20")
     tiny = "--elements 8 --seconds 1 --short 0.2 --steps 0.05 0.0125 --scipy 1e-2"
     run(work_precision, "work_precision", tiny + " --fine 0.005 --tight 1e-5")
     with pytest.MonkeyPatch.context() as patch:
@@ -111,6 +113,27 @@ def test_the_same_cases_however_many_processes(results: Path):
     (row,) = read(results, "cases_per_hour")["rows"]
     assert len(set(row["peak_moments_nm"])) == 2
     assert row["parallel_efficiency"] == pytest.approx(1)
+
+
+def test_each_ground_is_what_it_says(results: Path):
+    rows = {row["ground"]: row for row in read(results, "soil_cost")["rows"]}
+    assert rows.keys() == soil_cost.GROUNDS.keys()
+    assert rows["shipped springs"]["over_shipped"] == 1
+    loads = {name: soil_loads(name) for name in rows}
+    assert loads["shipped springs"] == {"soil": "SoilSprings"}
+    assert loads["hysteretic springs"] == {"soil": "HystereticSprings"}
+    assert {"soil_rocking", "soil_base_shear", "soil_base_moment"} < loads["PISA clay"].keys()
+    assert {"soil_shaft", "soil_torsion", "soil_bearing"} < loads["layered ground"].keys()
+    assert loads["macro-element"] == {}
+    for name, row in rows.items():
+        assert (row["tangents_call_s"] > 0) == bool(loads[name])
+        assert row["largest_residual"] <= step_cost.CONVERGED
+
+
+def soil_loads(ground: str) -> dict[str, str]:
+    """Names and kinds of the soil's loads."""
+    foundation = soil_cost.case_on(ground, 2.0).system.foundation
+    return {load.name: type(load).__name__ for load in foundation.soil}
 
 
 def test_memory_and_results_are_counted(results: Path):
