@@ -22,7 +22,8 @@ from offwind_pin.analysis.integrators import Integrator
 from offwind_pin.dynamics.restraints import LinearRestraint
 from offwind_pin.loads.tower_top import TowerTopLoad
 from offwind_pin.structure.chain import Element, Elements
-from offwind_pin.turbines.definition import Array, DistributedSprings
+from offwind_pin.turbines.base import Array
+from offwind_pin.turbines.soil import DistributedSprings
 
 ELEMENTS = {"pile": 60, "monopile": 6, "tower": 14}
 

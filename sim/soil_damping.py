@@ -36,8 +36,8 @@ from offwind_pin.display.style import (
     VERMILLION,
     styled,
 )
-from offwind_pin.turbines.definition import DistributedSprings, RotorNacelleRNA
-from offwind_pin.turbines.soil import Hysteresis
+from offwind_pin.turbines.definition import RotorNacelleRNA
+from offwind_pin.turbines.soil import DistributedSprings, Hysteresis
 
 Array = NDArray[np.float64]
 

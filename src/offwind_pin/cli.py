@@ -35,7 +35,7 @@ from offwind_pin.dynamics.system import System
 from offwind_pin.errors import InputError, InterruptedSimulation, SolverError
 from offwind_pin.results.files import write_text
 from offwind_pin.structure.chain import Element
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 from offwind_pin.turbines.reader import load_turbine
 
 EXIT_SYSTEM, EXIT_INPUT, EXIT_SOLVER, EXIT_INTERRUPTED = 1, 2, 3, 130

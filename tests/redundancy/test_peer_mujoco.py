@@ -10,7 +10,7 @@ import pinocchio as pin
 import pytest
 
 import offwind_pin as ow
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 SHIPPED = Path(__file__).resolve().parents[2] / "urdf"
 

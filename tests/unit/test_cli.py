@@ -14,7 +14,7 @@ import yaml
 import offwind_pin as ow
 from offwind_pin.campaign import run as campaign_run
 from offwind_pin.loads.morison import MorisonForce
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 SHORT_CASE = {
     "name": "short",

@@ -14,7 +14,7 @@ from offwind_pin.loads.dashpots import NO_DASHPOT, Dashpot
 from offwind_pin.loads.hysteretic import HystereticSprings
 from offwind_pin.loads.soil import LATERAL, ROCKING, Direction, SoilSprings
 from offwind_pin.loads.soil_curves import curve_energy, linear_curves, tanh_curves
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 from offwind_pin.turbines.soil import DampingCurve, SoilDashpot
 
 MODULUS, ULTIMATE, LENGTH = 3e8, 2e6, 0.75

@@ -12,7 +12,7 @@ from offwind_pin.analysis.foundations import FOUNDATIONS
 from offwind_pin.dynamics import foundations
 from offwind_pin.dynamics.foundations import Foundation
 from offwind_pin.dynamics.restraints import LinearRestraint
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,7 @@ from offwind_pin.loads.soil_curves import (
     power_curves,
     tanh_curves,
 )
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 MODULUS, ULTIMATE, LENGTH = 2e8, 4e6, 0.75
 BEND = ULTIMATE / MODULUS

@@ -23,7 +23,9 @@ from offwind_pin.loads.python_load import PythonLoad
 from offwind_pin.loads.soil import LATERAL, ROCKING, TORSIONAL, VERTICAL, Direction, SoilSprings
 from offwind_pin.loads.soil_curves import soil_curves, tanh_curves
 from offwind_pin.loads.tower_top import TowerTopLoad
-from offwind_pin.turbines.definition import Array, CurveTable, DepthLine, LinearModulus
+from offwind_pin.turbines.base import Array
+from offwind_pin.turbines.depth_profile import DepthLine
+from offwind_pin.turbines.soil import CurveTable, LinearModulus
 
 TIME, RISE = 2.3, 0.7
 STEP, SIZE = 1e-5, 0.05

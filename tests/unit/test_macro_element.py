@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 import offwind_pin as ow
 from offwind_pin.dynamics.macro_element import MacroElement
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 STILL = np.zeros(6)
 STIFFNESS = np.array(

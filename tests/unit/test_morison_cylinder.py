@@ -9,7 +9,7 @@ from helpers.numerics import fitted_order
 from offwind_pin.loads.morison import AddedMass, MorisonForce, Strips
 from offwind_pin.loads.points import PointMotion
 from offwind_pin.loads.waves import IrregularSea, wave_number
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 DEPTH, GRAVITY, DENSITY, DIAMETER = 30.0, 9.80665, 1025.0, 9.0
 AMPLITUDE, FREQUENCY = 1.5, 0.1

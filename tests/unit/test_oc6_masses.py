@@ -6,7 +6,7 @@ from numpy.testing import assert_allclose
 
 import offwind_pin as ow
 from offwind_pin.structure.section import bending_stiffness, diameter_and_thickness, lump
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 # OpenFAST r-test OC6_phaseII, ElastoDyn tower file: HtFract, TMassDen (kg/m), TwFAStif (N m2).
 TOWER = np.array(

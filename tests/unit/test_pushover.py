@@ -12,7 +12,7 @@ import offwind_pin as ow
 from offwind_pin.analysis.condensation import condense
 from offwind_pin.analysis.pile import pile_only
 from offwind_pin.analysis.pushover import pushover
-from offwind_pin.turbines.definition import CurveTable
+from offwind_pin.turbines.soil import CurveTable
 
 RIGID = LongPile(length=20.0, thickness=0.5, youngs_modulus=1e13)
 RESISTANCE = 1e6  # N/m, constant with depth

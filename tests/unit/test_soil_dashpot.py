@@ -10,7 +10,7 @@ from offwind_pin.loads.dashpots import NO_DASHPOT, Dashpot
 from offwind_pin.loads.points import PointMotion
 from offwind_pin.loads.soil import LATERAL, SoilSprings
 from offwind_pin.loads.soil_curves import SoilCurves, linear_curves, tanh_curves
-from offwind_pin.turbines.definition import SoilDashpot
+from offwind_pin.turbines.soil import SoilDashpot
 
 FACTOR, FREQUENCY, LENGTH = 0.03, 0.236, 0.75
 DASHPOT = SoilDashpot(damping_factor=FACTOR, load_frequency=FREQUENCY)

@@ -10,7 +10,7 @@ import offwind_pin as ow
 from offwind_pin.dynamics.foundations import distributed_springs
 from offwind_pin.loads.points import PointMotion
 from offwind_pin.loads.soil import SoilSprings
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 
 @pytest.fixture(scope="session")

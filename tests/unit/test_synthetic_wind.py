@@ -6,7 +6,7 @@ from numpy.testing import assert_allclose
 
 import offwind_pin as ow
 from offwind_pin.loads.synthetic_wind import SyntheticWind, operate_rotor, steady_load
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 WIND, PASSING, PERIOD, STEP = 9.06, 0.388, 500.0, 0.05
 

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 import offwind_pin as ow
-from offwind_pin.turbines.definition import DepthLine, LinearModulus
+from offwind_pin.turbines.depth_profile import DepthLine
+from offwind_pin.turbines.soil import LinearModulus
 
 CHAIN, OPENFAST = 3e-3, 1e-2
 """Relative tolerances: rounding and discretisation of the chain; another theory of the beam."""

@@ -24,7 +24,8 @@ from offwind_pin.loads.points import (
     PointTangents,
 )
 from offwind_pin.loads.tower_top import constant_load
-from offwind_pin.turbines.definition import Array, Turbine
+from offwind_pin.turbines.base import Array
+from offwind_pin.turbines.definition import Turbine
 
 CondensedStiffness = Literal["tangent", "secant"]
 

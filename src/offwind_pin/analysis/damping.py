@@ -11,7 +11,8 @@ from offwind_pin.analysis.modal import ModalResult, modes
 from offwind_pin.dynamics.system import System
 from offwind_pin.errors import InputError
 from offwind_pin.structure.chain import Chain
-from offwind_pin.turbines.definition import Array, DampingCalibration
+from offwind_pin.turbines.base import Array
+from offwind_pin.turbines.definition import DampingCalibration
 
 _SEARCHED_MODES = 12
 

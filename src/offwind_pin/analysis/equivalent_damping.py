@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from offwind_pin.errors import InputError
 from offwind_pin.loads.soil import ROCKING, TORSIONAL, SoilSprings
 from offwind_pin.loads.soil_curves import SoilCurves
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 _STEPS = 400
 """In a cycle. What turns back at the peaks leaves an error of second order, 2e-5 of the energy."""

@@ -15,7 +15,8 @@ from offwind_pin.analysis.targets import Responses, Target
 from offwind_pin.dynamics.sea import Sea
 from offwind_pin.errors import InputError
 from offwind_pin.structure.chain import Element, Elements
-from offwind_pin.turbines.definition import Array, Turbine
+from offwind_pin.turbines.base import Array
+from offwind_pin.turbines.definition import Turbine
 
 UNTOLD = 1 / np.sqrt(12)
 """Standard error of a combination, in shares of the parameters' ranges, from which on the data do

@@ -15,7 +15,7 @@ from offwind_pin.dynamics.recorder_arrays import Cuts, RecorderArrays, Segments
 from offwind_pin.errors import InputError
 from offwind_pin.solve.generalized_alpha import CONVERGED, REASONS, Method, compiled_advance, start
 from offwind_pin.solve.steps import FixedStep, StepPolicy
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 _log = logging.getLogger(__name__)
 

@@ -11,7 +11,7 @@ from offwind_pin.dynamics.equations import Equations
 from offwind_pin.dynamics.system import System
 from offwind_pin.errors import InputError
 from offwind_pin.solve.eigen import natural_modes
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 FAMILIES = {"FA": "fore-aft", "SS": "side-side", "T": "torsion", "V": "vertical"}
 _FAMILY_OF_JOINT = {"px": "FA", "ry": "FA", "py": "SS", "rx": "SS", "rz": "T", "pz": "V"}

@@ -12,7 +12,8 @@ from offwind_pin.errors import InputError
 from offwind_pin.results.wisdem_springs import WisdemPile
 from offwind_pin.structure.model import Scratch, build_model
 from offwind_pin.structure.section import diameter_and_thickness, lump, pieces
-from offwind_pin.turbines.definition import Array, Member, RigidBodyRNA, Station, Turbine
+from offwind_pin.turbines.base import Array
+from offwind_pin.turbines.definition import Member, RigidBodyRNA, Station, Turbine
 from offwind_pin.turbines.rna import lump_rna
 
 _NOTHING = RigidBodyRNA(

@@ -18,7 +18,8 @@ from offwind_pin.loads.tower_top import constant_load
 from offwind_pin.solve.newton import NewtonResult, newton
 from offwind_pin.structure.chain import Element, Elements
 from offwind_pin.structure.section import outer_diameter
-from offwind_pin.turbines.definition import Array, Turbine
+from offwind_pin.turbines.base import Array
+from offwind_pin.turbines.definition import Turbine
 
 _SHARE_OF_DIAMETER = 0.1
 """Mudline displacement over diameter at which a monopile counts as failed, as in the PISA tests

@@ -13,7 +13,7 @@ from offwind_pin.errors import InputError, SolverError
 from offwind_pin.loads.points import PointLoad
 from offwind_pin.loads.tower_top import constant_load
 from offwind_pin.solve.newton import newton
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 RELATIVE_TOLERANCE = 1e-10
 """Largest entry of the residual over :func:`load_scale`. Displacements of soil nodes are

@@ -16,7 +16,8 @@ from offwind_pin.dynamics.sea import Sea
 from offwind_pin.dynamics.system import System
 from offwind_pin.errors import InputError
 from offwind_pin.structure.chain import Element, Elements
-from offwind_pin.turbines.definition import Array, Turbine
+from offwind_pin.turbines.base import Array
+from offwind_pin.turbines.definition import Turbine
 
 _MODES = 12
 """Modes computed, among which the labels of targets are sought."""

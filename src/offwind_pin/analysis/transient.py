@@ -33,7 +33,7 @@ from offwind_pin.results.blocks import BLOCK_FOLDER, Block, BlockStore, FolderSt
 from offwind_pin.results.dataset import HistoryWriter
 from offwind_pin.solve.steps import FixedStep
 from offwind_pin.structure.urdf import definition_hash
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 Progress = Callable[[float], None]
 

@@ -10,7 +10,7 @@ from pydantic import AfterValidator, Field, model_validator
 
 from offwind_pin.analysis.foundations import FOUNDATIONS
 from offwind_pin.structure.chain import MOST_ELEMENTS, Element
-from offwind_pin.turbines.definition import Definition, NonNegative, Number, Positive
+from offwind_pin.turbines.base import Definition, NonNegative, Number, Positive
 from offwind_pin.turbines.reader import find_definition, read_model
 
 

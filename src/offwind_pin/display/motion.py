@@ -9,7 +9,7 @@ import numpy as np
 from offwind_pin.analysis.modal import ModalResult, mode_family
 from offwind_pin.dynamics.poses import body_poses
 from offwind_pin.dynamics.system import System
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 FRAMES = 60
 """Poses in a cycle; between them the viewer interpolates, within 0.2 % of the amplitude."""

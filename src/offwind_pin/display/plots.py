@@ -34,7 +34,7 @@ from offwind_pin.display.style import (
 )
 from offwind_pin.display.wording import DASH, fixed, foundation_name, is_mode
 from offwind_pin.loads.soil import SoilSprings
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 __all__ = [
     "mode_shapes",

@@ -25,7 +25,7 @@ from offwind_pin.display.wording import DASH, is_mode
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.synthetic_wind import RotorOperation, SyntheticWind
 from offwind_pin.results.files import write_text
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 SECTIONS = {
     "surrogates": "What is a surrogate here, and why",

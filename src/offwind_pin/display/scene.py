@@ -15,7 +15,7 @@ from offwind_pin.dynamics.system import System
 from offwind_pin.structure.meshes import Mesh, body_meshes, box, circle, disc, loft
 from offwind_pin.structure.rotor import rna_meshes
 from offwind_pin.structure.section import frusta, outer_diameter
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 COLOUR_MAP = "viridis"
 CYCLE = 4.0

@@ -16,7 +16,7 @@ from offwind_pin.display.wording import DASH, TIMES, fixed, number, quantity
 
 if TYPE_CHECKING:
     from offwind_pin.campaign.soil_overview import Fixity, SoilOverview
-    from offwind_pin.turbines.definition import Array
+    from offwind_pin.turbines.base import Array
 
 MEGA = 1e6
 STIFFNESS_NAMES = {

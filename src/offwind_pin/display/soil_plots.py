@@ -26,7 +26,7 @@ from offwind_pin.display.style import (
 )
 from offwind_pin.display.wording import TIMES
 from offwind_pin.loads.soil import SoilSprings
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 MEGA = 1e6
 DAMPING_NAMES = {

@@ -11,7 +11,7 @@ from offwind_pin.dynamics.system import System
 from offwind_pin.loads.soil import LATERAL, SoilSprings
 from offwind_pin.structure.meshes import Mesh, tube
 from offwind_pin.structure.section import outer_diameter
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 _X, _Y, _Z = np.eye(3)
 _CLOSEST = 0.022

@@ -25,7 +25,8 @@ from offwind_pin.dynamics.sea import IrregularWaves
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.soil import SoilSprings
 from offwind_pin.structure.section import outer_diameter
-from offwind_pin.turbines.definition import Array, Member, RotorNacelleRNA
+from offwind_pin.turbines.base import Array
+from offwind_pin.turbines.definition import Member, RotorNacelleRNA
 from offwind_pin.turbines.rna import rotor_apex, rotor_radius
 
 _SIDES = (-44.0, 60.0)

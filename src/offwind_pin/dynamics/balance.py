@@ -16,7 +16,7 @@ from offwind_pin.dynamics.forward import (
     row_of,
     scale,
 )
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 
 @kernel

@@ -18,7 +18,7 @@ from offwind_pin.loads.points import (
     nothing_stored,
 )
 from offwind_pin.structure.chain import NDArrayInt
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 
 class ChainArrays(NamedTuple):

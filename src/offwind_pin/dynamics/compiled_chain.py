@@ -34,7 +34,7 @@ from offwind_pin.dynamics.system import System
 from offwind_pin.loads.points import PointLoad, nothing_stored
 from offwind_pin.loads.python_load import PythonLoad, as_kernel_load
 from offwind_pin.solve import generalized_alpha
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 
 class Run(NamedTuple):

@@ -30,7 +30,7 @@ from offwind_pin.loads.points import (
     PointLoad,
     PointMotion,
 )
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,7 +11,7 @@ import math
 
 from offwind_pin.compiled import kernel
 from offwind_pin.dynamics.chain_arrays import ChainArrays
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 Vector = tuple[float, float, float]
 

@@ -17,7 +17,7 @@ from offwind_pin.compiled import kernel
 from offwind_pin.dynamics.balance import body_needs, rna_needs
 from offwind_pin.dynamics.chain_arrays import ChainArrays
 from offwind_pin.dynamics.forward import Vector, axis_of, row_of
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 
 @kernel

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from offwind_pin.loads.points import PointMotion
 from offwind_pin.structure.chain import Chain, NDArrayInt
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,7 +18,7 @@ from scipy.optimize import nnls
 from offwind_pin.compiled import kernel
 from offwind_pin.dynamics.restraints import KernelRestraint, restraint_commit, restraint_kernel
 from offwind_pin.errors import InputError
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 _ARM, _COUNT, _ELEMENTS = 36, 37, 38
 """Places in the numbers, after the 6x6 that acts besides: the arm of the decoupled translation, the
@@ -255,11 +255,12 @@ def _fitted(path: _Path, translation: float, rotation: float) -> tuple[Array, Ar
     count = len(path.shift)
     onset = np.tile(path.shift, 2), np.tile(path.rotation, 2)
     both = np.arange(2 * count) < count
+    reluctance = np.where(both, 0.0, _RELUCTANCE)
     a, b = np.full(2 * count, translation), np.where(both, rotation, 0.0)
     for repeat in range(_REPEATS):
         pull, twist = _first_loading(path, a, b)
         new = _SHARE_OF_NEW if repeat else 1.0
-        a = (1 - new) * a + new * _parallel(pull, path.force, translation, _RELUCTANCE * ~both)
+        a = (1 - new) * a + new * _parallel(pull, path.force, translation, reluctance)
         b[both] = (1 - new) * b[both] + new * _parallel(twist[:, both], path.moment, rotation)
     pull, twist = _first_loading(path, a, b)
     off = [np.max(np.abs(pull @ a / path.force - 1)), np.max(np.abs(twist @ b / path.moment - 1))]
@@ -301,7 +302,7 @@ def _parallel(
     """
     weight, count = 1e4, stretch.shape[1]
     rows = [stretch / force[:, None] * stiffness, np.full((1, count), weight)]
-    aims = [np.ones(len(force)), [weight]]
+    aims = [np.ones(len(force)), np.full(1, weight)]
     if reluctance is not None:
         rows.append(np.diag(reluctance))
         aims.append(np.zeros(count))

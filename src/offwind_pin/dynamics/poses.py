@@ -6,7 +6,7 @@ import numpy as np
 import pinocchio as pin
 
 from offwind_pin.dynamics.system import System
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 
 def body_poses(system: System, q: Array) -> Array:

@@ -12,7 +12,7 @@ from offwind_pin.dynamics.chain_arrays import ChainArrays
 from offwind_pin.dynamics.system import System
 from offwind_pin.structure.chain import NDArrayInt
 from offwind_pin.structure.section import lump
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 STATE_ENERGIES = ("kinetic", "gravitational", "elastic", "root")
 """First columns of the stored energies; one for each load follows."""

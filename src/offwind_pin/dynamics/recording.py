@@ -23,7 +23,7 @@ from offwind_pin.dynamics.forward import (
     subtract,
 )
 from offwind_pin.dynamics.recorder_arrays import JOINT_DAMPERS, ROOT, Cuts, RecorderArrays
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 
 @kernel

@@ -12,7 +12,7 @@ import numpy as np
 from numba import objmode, types
 
 from offwind_pin.compiled import ExchangeableKernel, exchangeable
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 _ROW, _MATRIX = types.float64[::1], types.float64[:, ::1]
 

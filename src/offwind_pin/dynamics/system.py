@@ -13,7 +13,8 @@ from offwind_pin.dynamics.sea import Sea
 from offwind_pin.loads.points import PointLoad
 from offwind_pin.structure.chain import Chain
 from offwind_pin.structure.model import Scratch
-from offwind_pin.turbines.definition import Array, Turbine
+from offwind_pin.turbines.base import Array
+from offwind_pin.turbines.definition import Turbine
 
 if TYPE_CHECKING:
     from offwind_pin.dynamics.equations import Equations

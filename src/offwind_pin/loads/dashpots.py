@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from offwind_pin.compiled import kernel
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 from offwind_pin.turbines.soil import DampingCurve, SoilDashpot
 
 

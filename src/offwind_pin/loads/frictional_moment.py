@@ -23,7 +23,7 @@ from offwind_pin.loads.points import (
 )
 from offwind_pin.loads.soil import deflection_size
 from offwind_pin.loads.soil_curves import SoilCurves, curve_at
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 _LENGTH, _LEVER, _CURVE = range(3)
 """Columns of a node's constants: tributary length, and where the numbers of the lever's and of the

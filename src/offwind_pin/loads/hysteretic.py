@@ -22,7 +22,7 @@ from offwind_pin.loads.points import (
 )
 from offwind_pin.loads.soil import SoilSprings
 from offwind_pin.loads.soil_curves import SoilCurves
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 _DASHPOT, _SLIDERS = 7, 8
 """Columns of a node's constants after its direction: constant dashpot coefficient, and number of

@@ -15,7 +15,7 @@ from offwind_pin.loads.points import (
     tangent_kernel,
 )
 from offwind_pin.loads.waves import WaveKinematics
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 STRIP_LENGTH = 0.5
 """Longest strip in m: the force of a wave 6.5 m long is met within 1 %, of longer ones better."""

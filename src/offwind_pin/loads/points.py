@@ -13,7 +13,7 @@ import numpy as np
 from numba import types
 
 from offwind_pin.compiled import ExchangeableKernel, exchangeable
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 POSITION, DISPLACEMENT, VELOCITY, AXIS, ACCELERATION, TURN, SPIN = (
     slice(3 * i, 3 * i + 3) for i in range(7)

@@ -25,7 +25,7 @@ from offwind_pin.loads.points import (
     force_kernel,
     tangent_kernel,
 )
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 _register: WeakValueDictionary[int, PythonLoad] = WeakValueDictionary()
 _numbers = itertools.count()

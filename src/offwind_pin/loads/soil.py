@@ -24,7 +24,7 @@ from offwind_pin.loads.points import (
     tangent_kernel,
 )
 from offwind_pin.loads.soil_curves import SoilCurves, curve_at, curve_energy
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 
 from offwind_pin.compiled import kernel
 from offwind_pin.errors import InputError
-from offwind_pin.turbines.definition import Array, CurveTable, LinearModulus, TanhCurve
+from offwind_pin.turbines.base import Array
+from offwind_pin.turbines.soil import CurveTable, LinearModulus, TanhCurve
 
 _LARGEST_DISPLACEMENT = 10.0
 _COLUMNS = ("depth_m", "y_m", "p_n_per_m")

@@ -14,7 +14,8 @@ from scipy.optimize import brentq
 
 from offwind_pin.errors import InputError
 from offwind_pin.loads.tower_top import LoadHistory
-from offwind_pin.turbines.definition import Array, RotorNacelleRNA
+from offwind_pin.turbines.base import Array
+from offwind_pin.turbines.definition import RotorNacelleRNA
 from offwind_pin.turbines.rna import rotor_apex, rotor_radius
 
 _STREAM = 2

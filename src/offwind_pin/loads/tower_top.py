@@ -12,7 +12,7 @@ import numpy as np
 from offwind_pin.errors import InputError
 from offwind_pin.loads.points import KernelLoad, force_kernel, no_tangents
 from offwind_pin.loads.soil_curves import to_numbers
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 COMPONENTS = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
 _LARGEST_LOAD = 1e10

@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from offwind_pin.turbines.definition import Array
+from offwind_pin.turbines.base import Array
 
 _LARGEST_EXPONENT = 700.0
 _BLOCK = 128

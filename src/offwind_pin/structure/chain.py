@@ -26,7 +26,8 @@ from offwind_pin.structure.section import (
     shear_stiffness,
     torsional_stiffness,
 )
-from offwind_pin.turbines.definition import Array, Turbine
+from offwind_pin.turbines.base import Array
+from offwind_pin.turbines.definition import Turbine
 from offwind_pin.turbines.rna import RigidBody, lump_rna
 
 Stiffness = Literal["flexibility", "midpoint"]

@@ -10,7 +10,8 @@ import numpy as np
 from offwind_pin.structure.chain import Chain, NDArrayInt
 from offwind_pin.structure.frustum import Frustum
 from offwind_pin.structure.section import frusta
-from offwind_pin.turbines.definition import Array, Turbine
+from offwind_pin.turbines.base import Array
+from offwind_pin.turbines.definition import Turbine
 
 FACETS = 32
 """Sides of what is round. Normals are smoothed around it, so that few suffice."""

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from offwind_pin.structure.meshes import FACETS, Mesh, box, loft
-from offwind_pin.turbines.definition import Array, RigidBodyRNA, RotorNacelleRNA
+from offwind_pin.turbines.base import Array
+from offwind_pin.turbines.definition import RigidBodyRNA, RotorNacelleRNA
 from offwind_pin.turbines.rna import rotor_apex
 
 _SPAN = np.array([0.0, 0.03, 0.08, 0.14, 0.22, 0.35, 0.5, 0.65, 0.8, 0.9, 0.96, 1.0])

@@ -8,7 +8,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from offwind_pin.structure.frustum import AxialBody, Frustum
-from offwind_pin.turbines.definition import Array, Material, Member, Turbine
+from offwind_pin.turbines.base import Array
+from offwind_pin.turbines.definition import Material, Member, Turbine
 
 _GAUSS_POINTS, _GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(8)
 

@@ -12,19 +12,8 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field, model_validator
 
-from offwind_pin.turbines.base import Array as Array
-from offwind_pin.turbines.base import Definition as Definition
-from offwind_pin.turbines.base import NonNegative as NonNegative
-from offwind_pin.turbines.base import Number as Number
-from offwind_pin.turbines.base import Positive as Positive
-from offwind_pin.turbines.base import Vector3
-from offwind_pin.turbines.depth_profile import DepthLine as DepthLine
-from offwind_pin.turbines.soil import CurveTable as CurveTable
-from offwind_pin.turbines.soil import DistributedSprings as DistributedSprings
-from offwind_pin.turbines.soil import LinearModulus as LinearModulus
-from offwind_pin.turbines.soil import Soil as Soil
-from offwind_pin.turbines.soil import SoilDashpot as SoilDashpot
-from offwind_pin.turbines.soil import TanhCurve as TanhCurve
+from offwind_pin.turbines.base import Definition, NonNegative, Number, Positive, Vector3
+from offwind_pin.turbines.soil import Soil
 
 Height = Annotated[Number, Field(ge=-1000, le=1000)]
 Angle = Annotated[Number, Field(ge=-30, le=30)]

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from offwind_pin.turbines.definition import Array, Blade, RigidBodyRNA, RotorNacelleRNA
+from offwind_pin.turbines.base import Array
+from offwind_pin.turbines.definition import Blade, RigidBodyRNA, RotorNacelleRNA
 
 
 @dataclass(frozen=True, eq=False)
