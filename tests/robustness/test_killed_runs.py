@@ -71,7 +71,7 @@ def test_killed_again_and_again(
         assert process.exitcode == 0
         found = contents(stopped)
         assert found.identical(expected)
-        for name in expected.variables:
+        for name in (n for n in expected.variables if expected[n].dtype.kind not in "OU"):
             assert found[name].to_numpy().tobytes() == expected[name].to_numpy().tobytes()
         if done == kills:
             break

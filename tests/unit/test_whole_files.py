@@ -3,6 +3,7 @@
 import json
 from pathlib import Path
 
+import netCDF4
 import numpy as np
 import pytest
 import xarray as xr
@@ -92,6 +93,21 @@ def test_netcdf_reads_back(tmp_path: Path) -> None:
         assert again.displacement.dtype == np.float32
         assert again.attrs["title"] == "test"
     assert names(tmp_path) == ["results.nc"]
+
+
+def test_names_have_a_fixed_width_in_the_file(tmp_path: Path) -> None:
+    """HDF5 2.0 crashes on strings of variable length in one file after another; ours have none."""
+    data = xr.Dataset(
+        {"load": (("time", "component"), np.ones((2, 3)))},
+        {"component": ["Fx", "Fyy", "M\u00e9"]},
+    )
+    path = tmp_path / "results.nc"
+    write_netcdf(path, data)
+    with netCDF4.Dataset(path) as file:
+        assert all(variable.dtype is not str for variable in file.variables.values())
+    with xr.open_dataset(path, engine="netcdf4") as again:
+        assert again["component"].values.tolist() == ["Fx", "Fyy", "M\u00e9"]
+        assert float(again["load"].sel(component="Fyy").sum()) == 2.0
 
 
 def test_failing_netcdf_leaves_the_old_file(tmp_path: Path) -> None:

@@ -70,6 +70,9 @@ def _encoding(data: xr.Dataset) -> dict[Any, dict[str, Any]]:
     encoding = {}
     for name, variable in data.variables.items():
         how: dict[str, Any] = {}
+        if variable.dtype.kind in "UO":
+            # Strings of variable length crash HDF5 2.0 when it opens one such file after another.
+            how["dtype"] = "S1"
         if "time" in variable.dims:
             # Left to itself the file has one chunk for each instant.
             how["chunksizes"] = [_CHUNK if d == "time" else data.sizes[d] for d in variable.dims]
