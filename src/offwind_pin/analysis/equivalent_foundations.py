@@ -24,7 +24,7 @@ from offwind_pin.dynamics.foundations import (
 )
 from offwind_pin.dynamics.macro_element import MacroElement, check_planes
 from offwind_pin.errors import InputError
-from offwind_pin.loads.soil_curves import read_numbers
+from offwind_pin.number_files import read_numbers
 from offwind_pin.structure.section import diameter_and_thickness, outer_diameter
 from offwind_pin.turbines.base import Array
 from offwind_pin.turbines.definition import Material, Member, Station, Turbine

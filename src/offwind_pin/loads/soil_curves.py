@@ -5,7 +5,6 @@ A lateral curve gives p in N/m over y in m; the same laws serve t over z and tor
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,6 +14,7 @@ from numpy.typing import NDArray
 
 from offwind_pin.compiled import kernel
 from offwind_pin.errors import InputError
+from offwind_pin.number_files import read_numbers
 from offwind_pin.turbines.base import Array
 from offwind_pin.turbines.soil import CurveTable, LinearModulus, TanhCurve
 
@@ -427,70 +427,3 @@ def _read_table(
         values = np.array(points)
         curves[depth] = (values[:, 0], values[:, 1])
     return curves
-
-
-def read_numbers(path: Path, columns: tuple[str, ...]) -> list[tuple[int, tuple[float, ...]]]:
-    """Rows of numbers of a CSV file with a header, each with its line number.
-
-    Lines that start with ``#`` are comments.
-
-    Raises
-    ------
-    InputError : missing or empty file, wrong header, a cell that is no finite number
-    """
-    header_seen = False
-    rows = []
-    for line, text in _text_lines(path):
-        if not text or text.startswith("#"):
-            continue
-        cells = [cell.strip() for cell in next(csv.reader([text]))]
-        if not header_seen:
-            if tuple(cells) != columns:
-                raise InputError(
-                    f"{path}, line {line}",
-                    ",".join(cells),
-                    f"the header {','.join(columns)}",
-                    "Name the columns so.",
-                )
-            header_seen = True
-            continue
-        rows.append((line, to_numbers(path, line, cells, len(columns))))
-    if not rows:
-        raise InputError(
-            str(path), "no rows of numbers", "a header and one row or more", "Is the file complete?"
-        )
-    return rows
-
-
-def _text_lines(path: Path) -> list[tuple[int, str]]:
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except FileNotFoundError:
-        raise InputError(str(path), "no such file", "an existing file", "Check the path.") from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(str(path), str(error), "a readable UTF-8 text file", "Check it.") from None
-    return [(i, line.strip()) for i, line in enumerate(text.splitlines(), 1)]
-
-
-def to_numbers(path: Path, line: int, cells: list[str], count: int) -> tuple[float, ...]:
-    """Finite numbers out of the cells of one line.
-
-    Raises
-    ------
-    InputError : a wrong number of cells, or a cell that is no finite number
-    """
-    where = f"{path}, line {line}"
-    if len(cells) != count:
-        raise InputError(where, f"{len(cells)} cells", f"{count} cells", "Is the line complete?")
-    values = []
-    for column, cell in enumerate(cells, 1):
-        try:
-            value = float(cell)
-        except ValueError:
-            value = float("nan")
-        if not np.isfinite(value):
-            raise InputError(
-                f"{where}, column {column}", cell, "a finite number", "Correct the cell."
-            )
-        values.append(value)
-    return tuple(values)

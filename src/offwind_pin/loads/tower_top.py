@@ -11,7 +11,7 @@ import numpy as np
 
 from offwind_pin.errors import InputError
 from offwind_pin.loads.points import KernelLoad, force_kernel, no_tangents
-from offwind_pin.loads.soil_curves import to_numbers
+from offwind_pin.number_files import read_text, to_numbers
 from offwind_pin.turbines.base import Array
 
 COMPONENTS = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
@@ -124,12 +124,7 @@ def read_load_history(path: Path) -> LoadHistory:
     InputError : missing, empty or truncated file; a cell that is no number; times that do not rise;
         loads beyond anything a turbine gives
     """
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except FileNotFoundError:
-        raise InputError(str(path), "no such file", "an existing file", "Check the path.") from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(str(path), str(error), "a readable UTF-8 text file", "Check it.") from None
+    text = read_text(path)
     rows: list[tuple[float, ...]] = []
     for line, raw in enumerate(text.splitlines(), 1):
         data = re.split(r"[#!%]", raw, maxsplit=1)[0].strip()

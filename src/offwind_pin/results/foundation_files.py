@@ -9,7 +9,7 @@ WISDEM has no place for a 6x6; ``wisdem_springs`` tells it as springs along its 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from offwind_pin.errors import InputError
+from offwind_pin.number_files import read_text
 from offwind_pin.results.files import write_text
 
 Array = NDArray[np.float64]
@@ -86,7 +87,7 @@ def read_subdyn_ssi(path: Path) -> tuple[Array, Array]:
     }
     matrices = np.zeros((2, 6, 6))
     seen: set[str] = set()
-    for number, text in _lines(path):
+    for number, text in enumerate(read_text(path).splitlines(), 1):
         words = re.split(r"[!#%]", text)[0].split()
         if not words:
             continue
@@ -170,7 +171,7 @@ def read_soildyn(path: Path) -> SoilDynInput:
     ------
     InputError : a missing file, one that is too short, or a line without its numbers
     """
-    lines = dict(_lines(path))
+    lines = dict(enumerate(read_text(path).splitlines(), 1))
     last = _DAMPING_AT + 5
     if len(lines) < last:
         allowed = f"{last} lines up to the end of the damping matrix"
@@ -220,16 +221,6 @@ def symmetric_matrix(given: ArrayLike, where: str) -> Array:
             "Give the symmetric part if the difference may be left out.",
         )
     return (matrix + matrix.T) / 2
-
-
-def _lines(path: Path) -> Iterator[tuple[int, str]]:
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except FileNotFoundError:
-        raise InputError(str(path), "no such file", "an existing file", "Check the path.") from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(str(path), str(error), "a readable UTF-8 text file", "Check it.") from None
-    yield from enumerate(text.splitlines(), 1)
 
 
 def _numbers(path: Path, lines: dict[int, str], line: int, count: int) -> Array:
