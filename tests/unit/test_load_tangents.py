@@ -274,6 +274,7 @@ def test_tangents_against_differences(oc6: ow.Turbine, tmp_path: Path, name: str
     found = errors(load, motion, load.tangents(TIME, motion, RISE))
     assert max(found.values(), default=0.0) < TOLERANCE
     assert found.keys() == depends_on(name)
+    assert load.inertial == ("inertia" in found)
 
 
 @pytest.mark.parametrize("name", LOADS)

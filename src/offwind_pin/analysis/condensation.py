@@ -17,11 +17,11 @@ from offwind_pin.errors import InputError
 from offwind_pin.loads.points import (
     BY_POSITION,
     MOMENT_BY_TURN,
-    KernelLoad,
     PointForces,
     PointLoad,
     PointMotion,
     PointTangents,
+    as_argument,
 )
 from offwind_pin.loads.tower_top import constant_load
 from offwind_pin.turbines.base import Array
@@ -203,7 +203,7 @@ def _soil_and_past(pile: System, memory: Array) -> Iterator[tuple[PointLoad, dic
     """Each load of the soil, with what it keeps of its past as an argument if it keeps anything."""
     soil, root = pile.foundation.soil, as_kernel_restraint(pile.foundation.root)
     for springs, past in zip(soil, split_memory(soil, root, memory)[:-1], strict=True):
-        yield springs, {"memory": past} if isinstance(springs, KernelLoad) else {}
+        yield springs, as_argument(springs, past)
 
 
 def _displacement(pile: System, about: StaticResult) -> Array:

@@ -29,6 +29,7 @@ from offwind_pin.loads.points import (
     PointForces,
     PointLoad,
     PointMotion,
+    as_argument,
 )
 from offwind_pin.turbines.base import Array
 
@@ -94,9 +95,17 @@ class Equations:
     def mass(self, q: Array) -> Array:
         """(nv, nv) mass matrix dr/da with the added mass."""
         upper = np.triu(pin.crba(self._model, self._data, q))
-        rest = np.zeros_like(q)
-        loads = self._load_tangents(0.0, q, rest, rest)[2]
-        return upper + np.triu(upper, 1).T + loads
+        total = upper + np.triu(upper, 1).T
+        motion = self.chain_motion(q, np.zeros_like(q))
+        points = motion.points(self.points)
+        for load, part, past in zip(self.loads, self._parts, self._memory[:-1], strict=True):
+            if isinstance(load, KernelLoad) and not load.inertial:
+                continue
+            tangents = load.tangents(0.0, points[part], 0.0, **as_argument(load, past))
+            moved = motion.derivatives(self.points[part], points[part]).position
+            change = np.einsum("nij,njk->nik", tangents.inertia, moved)
+            total -= np.tensordot(moved, change, axes=([0, 1], [0, 1]))
+        return total
 
     def tangents(
         self, time: float, q: Array, v: Array, a: Array | None = None
@@ -125,10 +134,7 @@ class Equations:
         force, moment = np.zeros((2, len(self.points.height), 3))
         rise = float(smooth_ramp(np.array(time), self.ramp_time))
         for load, part, past in zip(self.loads, self._parts, self._memory[:-1], strict=True):
-            if isinstance(load, KernelLoad):
-                result = load.forces(time, points[part], rise, past)
-            else:
-                result = load.forces(time, points[part], rise)
+            result = load.forces(time, points[part], rise, **as_argument(load, past))
             force[part], moment[part] = result.force, result.moment
         return Evaluation(motion, points, PointForces(force, moment))
 
@@ -153,10 +159,7 @@ class Equations:
         rise = float(smooth_ramp(np.array(time), self.ramp_time))
         by_q, by_v, by_a = np.zeros((3, len(q), len(q)))
         for load, part, past in zip(self.loads, self._parts, self._memory[:-1], strict=True):
-            if isinstance(load, KernelLoad):
-                tangents = load.tangents(time, state.points[part], rise, past)
-            else:
-                tangents = load.tangents(time, state.points[part], rise)
+            tangents = load.tangents(time, state.points[part], rise, **as_argument(load, past))
             how = state.motion.derivatives(self.points[part], state.points[part])
             change = np.einsum("nij,njk->nik", tangents.stiffness, how.position)
             change += np.einsum("nij,njk->nik", tangents.damping, how.velocity_by_q)

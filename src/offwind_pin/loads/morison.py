@@ -95,6 +95,7 @@ class AddedMass(KernelLoad):
     mass: Array
     name: str = "added_mass"
 
+    inertial = True
     force_kernel = _added_mass_forces
     tangent_kernel = _added_mass_tangents
     energy_kernel = _added_mass_energy

@@ -179,6 +179,8 @@ class KernelLoad(ABC):
     tangent_kernel: ClassVar[ExchangeableKernel]
     energy_kernel: ClassVar[ExchangeableKernel] = nothing_stored
     commit_kernel: ClassVar[ExchangeableKernel] = nothing_kept
+    inertial: ClassVar[bool] = False
+    """Whether the force depends on the acceleration, and the load belongs to the mass matrix."""
 
     if TYPE_CHECKING:  # fields or properties of the loads themselves
 
@@ -233,3 +235,8 @@ class KernelLoad(ABC):
 
     def _past(self, memory: Array | None) -> Array:
         return np.zeros(self.memory_size) if memory is None else memory
+
+
+def as_argument(load: PointLoad, memory: Array) -> dict[str, Array]:
+    """A load's memory for its methods; loads of the user's own take none."""
+    return {"memory": memory} if isinstance(load, KernelLoad) else {}

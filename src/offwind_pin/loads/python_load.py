@@ -59,6 +59,7 @@ class PythonLoad(KernelLoad):
     stops; whoever called the solver raises it again.
     """
 
+    inertial = True
     force_kernel = _forces
     tangent_kernel = _tangents
 
