@@ -140,6 +140,22 @@ TURBINE_FAULTS: dict[str, tuple[Callable[[Definition], None], list[str]]] = {
         _set("soil", "coupled_springs", "stiffness", 2, 2, to=-1.0),
         ["coupled_springs", "not positive definite"],
     ),
+    "6x6 with coupling of the other sign": (
+        _set(
+            "soil",
+            "coupled_springs",
+            "stiffness",
+            to=[
+                [2.0e9, 0, 0, 0, 2.0e10, 0],
+                [0, 2.0e9, 0, -2.0e10, 0, 0],
+                [0, 0, 1.0e10, 0, 0, 0],
+                [0, -2.0e10, 0, 3.0e11, 0, 0],
+                [2.0e10, 0, 0, 0, 3.0e11, 0],
+                [0, 0, 0, 0, 0, 1.0e11],
+            ],
+        ),
+        ["coupled_springs", "x-ry = 2e+10", "negative"],
+    ),
     "6x6 with five rows": (
         _drop("soil", "coupled_springs", "stiffness", 5),
         ["coupled_springs.stiffness"],

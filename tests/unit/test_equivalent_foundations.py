@@ -120,6 +120,28 @@ def test_macro_element_from_a_table(undamped: Turbine, tmp_path: Path) -> None:
     assert reaction[[0, 4]] == pytest.approx([1e7, arm * 1e7], rel=0.01)
 
 
+def test_a_table_without_load_is_refused(undamped: Turbine, tmp_path: Path) -> None:
+    """A loading that never leaves zero holds nothing to follow; the message names the file."""
+    file = tmp_path / "path.csv"
+    file.write_text("horizontal_load_n,displacement_m,rotation_rad\n0,0,0\n")
+    turbine = with_soil(undamped, macro_element=MacroElementCalibration(file=file))
+    with pytest.raises(ow.InputError, match=r"path\.csv.*no load but zero"):
+        ow.build(turbine, "macro_element")
+
+
+def test_scour_and_a_damping_calibrated_on_the_6x6() -> None:
+    """On any foundation the message names the calibration, which is what cannot be scoured."""
+    turbine = ow.load_turbine("oc6_phase2")
+    assert turbine.structural_damping is not None
+    assert turbine.structural_damping.foundation == "coupled_springs"
+    site = turbine.site.model_copy(update={"scour_depth": 3.0})
+    scoured = turbine.model_copy(update={"site": site})
+    with pytest.raises(ow.InputError, match=r"structural_damping\.foundation"):
+        ow.build(scoured, "distributed_springs")
+    on_clamped = turbine.structural_damping.model_copy(update={"foundation": "clamped"})
+    ow.build(scoured.model_copy(update={"structural_damping": on_clamped}), "distributed_springs")
+
+
 def test_scour_takes_the_mudline_down(undamped: Turbine) -> None:
     """The pile stands in deeper water and in less soil, so that the first frequency falls; soil laid
     down on top raises it. A 6x6 belongs to its own mudline."""

@@ -69,6 +69,13 @@ def structural_damping(turbine: Turbine, element: Element = "euler_bernoulli") -
             "ratios of critical for named modes",
             "Add the block, or leave the structure undamped.",
         )
+    if calibration.foundation == "coupled_springs" and turbine.site.scour_depth != 0:
+        raise InputError(
+            f"turbine {turbine.name}, field structural_damping.foundation",
+            f"coupled_springs with a scour_depth_m of {turbine.site.scour_depth:g}",
+            "clamped, or no scour: the 6x6 belongs to the original mudline",
+            "Calibrate the structure's damping on clamped.",
+        )
     sea = StillWater() if calibration.still_water else None
     held = make_foundation(turbine, calibration.foundation)
     undamped = assemble(turbine, held, sea, element=element)

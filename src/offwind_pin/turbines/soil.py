@@ -35,6 +35,12 @@ class CoupledSprings(Definition):
                 "the 6x6 stiffness is not positive definite, so that a motion is unresisted; "
                 "check the signs of the coupling terms (x-ry negative, y-rx positive)"
             )
+        # A pile head turns the way that it is pushed: no pile has the opposite signs.
+        if matrix[0, 4] > 0 or matrix[1, 3] < 0:
+            raise ValueError(
+                f"coupling terms x-ry = {matrix[0, 4]:g} N and y-rx = {matrix[1, 3]:g} N would "
+                "turn the pile head against the force; make x-ry negative and y-rx positive"
+            )
         return self
 
 
