@@ -251,6 +251,13 @@ SPRING_FAULTS: dict[str, tuple[dict[str, Any], str]] = {
     "many sliders": ({"hysteretic": {"sliders": 201}}, "less than or equal to 200"),
     "residual of sand": ({"vertical": {**SHAFT, "residual_ratio": 0.8}}, "sand has none"),
     "no residual of clay": ({"torsional": {**SHAFT, "soil": "clay"}}, "Clay needs it"),
+    "friction in kPa": ({"vertical": {**SHAFT, "skin_friction_pa": 60}}, "looks like kPa"),
+    "gradient of friction in kPa": (
+        {"torsional": {**SHAFT, "skin_friction_pa": {"gradient": 2.5}}},
+        "looks like kPa",
+    ),
+    "friction of steel": ({"vertical": {**SHAFT, "skin_friction_pa": 6e7}}, "beyond any ground's"),
+    "bearing in kPa": ({"toe_bearing": {"kind": "api", "end_bearing_pa": 12e3}}, "15000"),
     "constant dashpot that varies": (
         {
             "dashpot": {

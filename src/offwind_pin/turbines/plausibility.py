@@ -13,6 +13,7 @@ LOOKED_AT = np.linspace(0.0, 50.0, 51)
 """Depths in m at which a profile is judged."""
 
 STRENGTH_PA = (1e3, 5e6)
+SKIN_FRICTION_PA = (1e3, 5e6)
 SHEAR_MODULUS_PA = (1e6, 2e10)
 SUBMERGED_UNIT_WEIGHT_N_PER_M3 = (1e3, 14e3)
 FRICTION_ANGLE_DEG = (15.0, 50.0)
@@ -38,6 +39,23 @@ def check_strength(profile: DepthLine | DepthTable) -> DepthLine | DepthTable:
         raise ValueError(
             f"an undrained shear strength of {largest:g} Pa is that of rock; give Pa, and check "
             "the gradient (Pa per m)"
+        )
+    return profile
+
+
+def check_skin_friction(profile: DepthLine | DepthTable) -> DepthLine | DepthTable:
+    """A unit shaft friction that can be one in Pa.
+
+    Raises
+    ------
+    ValueError : it looks like kPa, or is beyond any ground's
+    """
+    largest = float(profile.at(LOOKED_AT).max())
+    low, high = SKIN_FRICTION_PA
+    if not low <= largest <= high:
+        likely = "only looks like kPa" if largest < low else "is beyond any ground's"
+        raise ValueError(
+            f"a skin friction that reaches {largest:g} Pa {likely}; give Pa (1 kPa = 1000 Pa)"
         )
     return profile
 

@@ -10,10 +10,11 @@ from pathlib import Path
 from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import Discriminator, Field, Tag, model_validator
+from pydantic import AfterValidator, Discriminator, Field, Tag, model_validator
 
 from offwind_pin.turbines.base import Array, Definition, NonNegative, Positive, Vector6
 from offwind_pin.turbines.depth_profile import DepthProfile
+from offwind_pin.turbines.plausibility import check_skin_friction
 from offwind_pin.turbines.soil_layers import LayeredGround
 
 
@@ -95,7 +96,9 @@ class _ShaftFriction(Definition):
 
     kind: Literal["api"]
     soil: Literal["sand", "clay"]
-    skin_friction: DepthProfile = Field(alias="skin_friction_pa")
+    skin_friction: Annotated[DepthProfile, AfterValidator(check_skin_friction)] = Field(
+        alias="skin_friction_pa"
+    )
     residual_ratio: Annotated[Positive, Field(ge=0.7, le=1)] | None = None
 
     @model_validator(mode="after")
@@ -164,7 +167,8 @@ class ApiBearing(Definition):
     """Q-z curve of API RP 2GEO; the end bearing acts on ``area``, or on pi D^2 / 4."""
 
     kind: Literal["api"]
-    end_bearing: Annotated[Positive, Field(ge=1e3, le=1e8)] = Field(alias="end_bearing_pa")
+    # API's largest, 12 MPa in very dense sand, is 12000 in kPa.
+    end_bearing: Annotated[Positive, Field(ge=1.5e4, le=1e8)] = Field(alias="end_bearing_pa")
     area: Positive | None = Field(alias="area_m2", default=None)
 
 
