@@ -53,9 +53,9 @@ def nodes(depth: Any, scour: float = 0.0, diameter: float = 7.0, length: float =
     return Ground(depth, np.full(len(depth), diameter), length, scour)
 
 
-def springs(curve: LateralCurve, **more: Any) -> DistributedSprings:
+def springs(curve: LateralCurve, nodes: int = 101, **more: Any) -> DistributedSprings:
     return DistributedSprings(
-        nodes=2,
+        nodes=nodes,
         curve=curve,
         toe_vertical_stiffness_n_per_m=1e9,
         toe_torsional_stiffness_nm_per_rad=1e9,
@@ -189,3 +189,13 @@ def test_cautions_of_sand_and_shaft() -> None:
     line = LinearModulus.model_validate({"kind": "linear", "modulus_n_per_m2": 1e6})
     assert "t-z" in told(line, nodes([5.0]), vertical=shaft)
     assert told(line, nodes([5.0])) == ""
+
+
+def test_cautions_of_nodes_and_of_layers_below_the_toe() -> None:
+    """Nodes far apart, and a layer that the pile never reaches."""
+    pile = nodes([1.0, 8.0], diameter=1.8, length=10.0)
+    assert "soil nodes are 5 m apart" in told(layered(LAYERS[:2]), pile, nodes=3)
+    assert "apart" not in told(layered(LAYERS[:2]), pile, nodes=41)
+    assert "layer from 6 m: the pile ends above it" in told(
+        layered(LAYERS[:2]), nodes([1.0], diameter=1.8, length=5.0), nodes=41
+    )

@@ -153,7 +153,7 @@ class HystereticSprings(SoilSprings):
     @cached_property
     def constants(self) -> Array:
         n, length = len(self.height), self.tributary_length[:, None]
-        stiffness, limit = sliders_of(self.curves, self.sliders)
+        stiffness, limit = sliders_of(self.curves, self.sliders, self.name)
         initial = self.curves.secant(np.zeros(n)) * self.tributary_length
         head = np.tile(self.direction.numbers, (n, 1))
         count = np.full(n, float(self.sliders))
@@ -166,7 +166,7 @@ class HystereticSprings(SoilSprings):
         return len(self.height) * self.sliders * self.direction.components
 
 
-def sliders_of(curves: SoilCurves, count: int) -> tuple[Array, Array]:
+def sliders_of(curves: SoilCurves, count: int, name: str = "soil") -> tuple[Array, Array]:
     """Sliders that follow curves on first loading, by chords between their yield deflections.
 
     These are spaced geometrically from where the first fiftieth of the ultimate resistance is
@@ -197,11 +197,13 @@ def sliders_of(curves: SoilCurves, count: int) -> tuple[Array, Array]:
         slope = np.diff(p, prepend=0.0) / np.diff(y, prepend=0.0)
         fall = -np.diff(slope, append=0.0)
         if np.any(fall < -1e-9 * slope[0]):
+            worst = int(np.argmin(fall))
             raise InputError(
-                "soil curve of hysteretic springs",
-                f"resistances {p.tolist()} N/m at deflections {y.tolist()} m",
+                f"hysteretic springs {name!r}, node {i + 1} of {n}",
+                f"a curve that turns upwards or falls at a deflection of {y[worst]:.3g}",
                 "resistances that rise less and less steeply, and never fall",
-                "Use a static curve, or a dashpot instead of hysteretic springs.",
+                "Use a static curve without residual loss (residual_ratio: 1), or a dashpot "
+                "instead of hysteretic springs.",
             )
         stiffness[i], limit[i] = np.maximum(fall, 0.0), y
     return stiffness, limit
