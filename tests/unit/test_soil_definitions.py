@@ -99,6 +99,12 @@ FAULTS: dict[str, tuple[dict[str, Any], str, str]] = {
     "no loading": (layers(SAND, loading=None), "curve.loading", "required"),
     "unknown model": (layers({**SAND, "model": "api_snad"}), "layers.0.model", "api_sand"),
     "unknown key": (layers({**SAND, "phi": 30}), "layers.0.phi", "unknown key"),
+    "key of another model": (
+        layers({**SAND, "undrained_shear_strength_pa": 1e5}),
+        "layers.0.undrained_shear_strength_pa",
+        "allowed: friction_angle_deg, initial_modulus_n_per_m3, model, source, "
+        "submerged_unit_weight_n_per_m3, top_m. Remove it",
+    ),
     "no layers": (layers(), "springs.curve", "no layers"),
     "first layer below": (layers({**SAND, "top_m": 2}), "springs.curve", "top_m = 0"),
     "layers not rising": (layers(SAND, {**CLAY, "top_m": 0}), "springs.curve", "rise strictly"),

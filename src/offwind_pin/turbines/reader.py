@@ -136,7 +136,7 @@ def _input_error(
     more = f" (More to mend in this file: {_enumerate(others)}.)" if others else ""
     where = f"{path}, field {field}"
     if first["type"] == "extra_forbidden":
-        known = _known_keys(model, location[:-1])
+        known = _known_keys(model, location[:-1], data)
         near = difflib.get_close_matches(str(location[-1]), known, n=1, cutoff=0.5)
         remedy = f"Did you mean {near[0]!r}?" if near else "Remove it."
         return InputError(where, "an unknown key", ", ".join(known), remedy + more)
@@ -191,38 +191,53 @@ def _typed(error: ErrorDetails, data: object) -> tuple[int | str, ...]:
     return tuple(kept)
 
 
-def _known_keys(model: type[BaseModel], location: tuple[int | str, ...]) -> list[str]:
-    """Keys that are accepted at a place of a definition; of a union, those of every member."""
+def _known_keys(model: type[BaseModel], location: tuple[int | str, ...], data: object) -> list[str]:
+    """Keys that are accepted at a place of a definition.
+
+    Of a union they are those of the member that the data choose by its kind, else of every member.
+    """
     schema = model.model_json_schema(by_alias=True)
     nodes = [schema]
     for part in location:
-        nodes = [below for node in nodes for below in _below(schema, node, part)]
+        nodes = [below for node in nodes for below in _below(schema, node, part, data)]
+        try:
+            data = data[part]  # type: ignore[index]
+        except (KeyError, IndexError, TypeError):
+            data = None
     return sorted(
         {
             name
             for node in nodes
-            for choice in _choices(schema, node)
+            for choice in _choices(schema, node, data)
             for name in choice["properties"]
         }
     )
 
 
-def _below(schema: Schema, node: Schema, part: int | str) -> list[Schema]:
+def _below(schema: Schema, node: Schema, part: int | str, data: object) -> list[Schema]:
     """The schemas of an item or a key."""
     if isinstance(part, int):
-        return [choice["items"] for choice in _choices(schema, node, "items")]
-    named = _choices(schema, node, "additionalProperties")
+        return [choice["items"] for choice in _choices(schema, node, data, "items")]
+    named = _choices(schema, node, data, "additionalProperties")
     return [
         choice["properties"][part]
-        for choice in _choices(schema, node)
+        for choice in _choices(schema, node, data)
         if part in choice["properties"]
     ] + [choice["additionalProperties"] for choice in named if choice["additionalProperties"]]
 
 
-def _choices(schema: Schema, node: Schema, having: str = "properties") -> list[Schema]:
+def _choices(
+    schema: Schema, node: Schema, data: object, having: str = "properties"
+) -> list[Schema]:
     """A schema with its references and unions resolved, those alternatives that have a key."""
     if "$ref" in node:
-        return _choices(schema, schema["$defs"][node["$ref"].rsplit("/", 1)[-1]], having)
+        whole = schema["$defs"][node["$ref"].rsplit("/", 1)[-1]]
+        return _choices(schema, whole, data, having)
+    if "discriminator" in node and isinstance(data, dict):
+        kinds = node["discriminator"]
+        chosen = kinds["mapping"].get(data.get(kinds["propertyName"]))
+        if chosen is not None:
+            return _choices(schema, {"$ref": chosen}, data, having)
     alternatives = node.get("anyOf", []) + node.get("oneOf", [])
-    found = [choice for below in alternatives for choice in _choices(schema, below, having)]
+    found = [choice for below in alternatives for choice in _choices(schema, below, data, having)]
     return [*found, node] if having in node else found
