@@ -16,7 +16,9 @@ from offwind_pin.loads.soil_curves import (
     curve_at,
     curve_energy,
     linear_curves,
+    point_curves,
     power_curves,
+    secant_at,
     stack_curves,
     tabulated_curve,
     tabulated_curves,
@@ -342,3 +344,22 @@ def test_table_of_one_curve(tmp_path: Path) -> None:
     path.write_text("z_m,q_n\n0.1,2e6\n0.01,5e6\n")
     with pytest.raises(InputError, match="z_m"):
         tabulated_curve(path, ("z_m", "q_n"))
+
+
+def test_secant_alone_is_the_secant_of_the_curve() -> None:
+    """The quicker function for forces gives what the one with the tangent gives, for every law."""
+    curves = [
+        linear_curves(np.array([2e8])),
+        tanh_curves(np.array([2e8]), np.array([4e6])),
+        point_curves(np.array([[0.0, 0.01, 0.1]]), np.array([[0.0, 1e6, 3e6]])),
+        power_curves(np.array([3e6]), np.array([0.5]), 0.25, np.array([0.003])),
+        *(
+            conic_curves(np.array([1.7]), np.array([4e6]), np.array([340.0]), np.array([n]))
+            for n in (0.0, 0.3, 0.72, 0.94)
+        ),
+        conic_curves(np.array([1.7]), np.array([0.0]), np.array([340.0]), np.array([0.5])),
+    ]
+    for curve in curves:
+        row = np.ascontiguousarray(curve.numbers[0])
+        for y in (0.0, 1e-9, 1e-4, 0.005, 0.02, 0.3, 1.699, 1.7, 5.0):
+            assert secant_at(row, y) == pytest.approx(curve_at(row, y)[0], rel=1e-15)

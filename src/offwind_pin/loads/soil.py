@@ -23,7 +23,7 @@ from offwind_pin.loads.points import (
     force_kernel,
     tangent_kernel,
 )
-from offwind_pin.loads.soil_curves import SoilCurves, curve_at, curve_energy
+from offwind_pin.loads.soil_curves import SoilCurves, curve_at, curve_energy, secant_at
 from offwind_pin.turbines.base import Array
 
 
@@ -86,8 +86,7 @@ def _forces(motion: Array, constants: Array, row: Array, memory: Array, force: A
         c = constants[i]
         u, v, f, components = int(c[0]), int(c[1]), int(c[2]), int(c[3])
         y = deflection_size(motion[i], u, components)
-        secant, _ = curve_at(c[int(c[_CURVE]) :], y)
-        spring = secant * c[_LENGTH]
+        spring = secant_at(c[int(c[_CURVE]) :], y) * c[_LENGTH]
         time, _ = ratio_at(c[int(c[_DASHPOT]) :], y)
         dashpot = spring * time + c[_CONSTANT]
         force[i] = 0.0
