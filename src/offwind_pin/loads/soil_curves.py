@@ -72,7 +72,8 @@ def _power_curve(numbers: Array, y: float) -> tuple[float, float]:
 
 
 @kernel
-def _conic_curve(numbers: Array, y: float) -> tuple[float, float]:
+def _conic_secant(numbers: Array, y: float) -> tuple[float, float]:
+    """Secant stiffness, and the root of the discriminant, zero where the curve is straight."""
     # -n (Y - X)^2 + (1 - n) (Y - K X) (Y - 1) = 0 in X = y / y_u and Y = p / p_u, solved for Y; the
     # discriminant is a sum of terms that are not negative, so that no digits are lost
     ultimate, end, stiffness, n = numbers[1], numbers[2], numbers[3], numbers[4]
@@ -84,37 +85,31 @@ def _conic_curve(numbers: Array, y: float) -> tuple[float, float]:
         return ultimate / y, 0.0
     chord, m = ultimate / end, 1 - n
     if n == 0:
-        return stiffness * chord, stiffness * chord
+        return stiffness * chord, 0.0
     root = np.sqrt((m * (1 - line)) ** 2 + 4 * m * n * (line - x) * (1 - x))
     half = m * (1 + line) - 2 * n * x
     if half >= 0:
         secant = 2 * (m * stiffness - n * x) / (half + root)
     else:
         secant = (root - half) / (2 * (n - m) * x)
-    # 1 - Y: near the plateau the difference would lose its digits
-    gap = 1 - secant * x
-    if line >= 1:
-        gap = 2 * n * (1 - x) ** 2 / (root + m * (line - 1) + 2 * n * (1 - x))
-    tangent = (2 * n * x * (secant - 1) + m * stiffness * gap) / root
-    return secant * chord, tangent * chord
+    return secant * chord, root
 
 
 @kernel
-def _conic_secant(numbers: Array, y: float) -> float:
-    """As ``_conic_curve``, without the tangent."""
+def _conic_curve(numbers: Array, y: float) -> tuple[float, float]:
+    secant, root = _conic_secant(numbers, y)
     ultimate, end, stiffness, n = numbers[1], numbers[2], numbers[3], numbers[4]
     x = y / end
     line = stiffness * x
-    if ultimate <= 0 or x >= 1 or (n == 0 and line >= 1):
-        return ultimate / y if ultimate > 0 else 0.0
+    if root == 0:
+        return secant, (secant if x < 1 and line < 1 else 0.0)
     chord, m = ultimate / end, 1 - n
-    if n == 0:
-        return stiffness * chord
-    root = np.sqrt((m * (1 - line)) ** 2 + 4 * m * n * (line - x) * (1 - x))
-    half = m * (1 + line) - 2 * n * x
-    if half >= 0:
-        return chord * 2 * (m * stiffness - n * x) / (half + root)
-    return chord * (root - half) / (2 * (n - m) * x)
+    # 1 - Y: near the plateau the difference would lose its digits
+    gap = 1 - secant * y / ultimate
+    if line >= 1:
+        gap = 2 * n * (1 - x) ** 2 / (root + m * (line - 1) + 2 * n * (1 - x))
+    tangent = (2 * n * x * (secant / chord - 1) + m * stiffness * gap) / root
+    return secant, tangent * chord
 
 
 @kernel
@@ -139,7 +134,7 @@ def curve_at(numbers: Array, y: float) -> tuple[float, float]:
 def secant_at(numbers: Array, y: float) -> float:
     """The first of :func:`curve_at`, in less time where the tangent costs something."""
     if numbers[0] == CONIC:
-        return _conic_secant(numbers, y)
+        return _conic_secant(numbers, y)[0]
     return curve_at(numbers, y)[0]
 
 
