@@ -157,9 +157,15 @@ def macro_element(turbine: Turbine) -> Foundation:
 
 def mudline_stiffness(turbine: Turbine, source: StiffnessSource | None) -> Array:
     """(6, 6) at the mudline in N, m, rad; by default the given one if there is one."""
-    if source == "distributed_springs" or (source is None and turbine.soil.coupled_springs is None):
+    if _is_condensed(turbine, source):
         return condensed_stiffness(turbine)
     return given_stiffness(turbine)
+
+
+def _is_condensed(turbine: Turbine, source: StiffnessSource | None) -> bool:
+    if source is None:
+        return turbine.soil.coupled_springs is None
+    return source == "distributed_springs"
 
 
 def condensed_stiffness(turbine: Turbine) -> Array:
@@ -203,10 +209,9 @@ def _above(turbine: Turbine, mudline: float) -> tuple[Member, ...]:
 def _surrogate(turbine: Turbine, source: StiffnessSource | None) -> str | None:
     """The springs' own remark, where they are what was taken."""
     springs = turbine.soil.distributed_springs
-    condensed = source == "distributed_springs" or (
-        source is None and turbine.soil.coupled_springs is None
-    )
-    return springs.surrogate if springs is not None and condensed else None
+    if springs is None or not _is_condensed(turbine, source):
+        return None
+    return springs.surrogate
 
 
 def _read_path(file: Path) -> tuple[Array, Array, Array]:

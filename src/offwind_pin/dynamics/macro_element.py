@@ -192,9 +192,9 @@ class MacroElement(KernelRestraint):
     ) -> MacroElement:
         """The element that follows a monotonic loading of the mudline in one plane.
 
-        One surface yields at each point of the path. Elements are fitted to the decoupled force and
-        moment by non-negative least squares, small motions having the given stiffness exactly;
-        past the last point the stiffness left there goes on.
+        Two elements yield at each point of the path, one of them in translation alone. They are
+        fitted to the decoupled force and moment by non-negative least squares, small motions having
+        the given stiffness exactly; past the last point the stiffness left there goes on.
 
         Parameters
         ----------
@@ -204,8 +204,8 @@ class MacroElement(KernelRestraint):
 
         Raises
         ------
-        InputError : planes of different stiffness; a path that does not rise, or starts stiffer
-            than the 6x6
+        InputError : planes of different stiffness; a path that does not rise, or does not start
+            with the stiffness of the 6x6
         """
         check_planes(stiffness)
         arm = stiffness[_X, _RY] / stiffness[_X, _X]
