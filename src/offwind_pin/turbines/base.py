@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
 Array = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
 
 
 def _reject_bool(value: Any) -> Any:
