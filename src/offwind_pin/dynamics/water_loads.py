@@ -1,0 +1,140 @@
+"""What water does to the members of a system: the loads on their strips."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from offwind_pin.dynamics.sea import Sea
+from offwind_pin.loads.added_mass import AddedMass, SplashAddedMass
+from offwind_pin.loads.buoyancy import Buoyancy
+from offwind_pin.loads.keulegan_carpenter import keulegan_carpenter
+from offwind_pin.loads.morison import MorisonForce
+from offwind_pin.loads.points import KernelLoad
+from offwind_pin.loads.strips import Strips, Water, strips_up_to
+from offwind_pin.loads.waves import IrregularSea, WaveKinematics
+from offwind_pin.structure.section import inner_diameter, wetted_diameter
+from offwind_pin.turbines.base import Array
+from offwind_pin.turbines.definition import Turbine
+from offwind_pin.turbines.hydrodynamics import FloodedPile, coefficient_at
+
+
+@dataclass(frozen=True, eq=False)
+class _LinearWater:
+    """Airy waves up to still water level."""
+
+    kinematics: WaveKinematics
+    highest_surface: float = 0.0
+    lowest_surface: float = 0.0
+
+    def rows(self, time: Array, rise: Array) -> Array:
+        rows = np.zeros((len(time), 1 + 6 * len(self.kinematics.horizontal)))
+        if len(self.kinematics.omega) > 0:
+            moved = self.kinematics.at_times(time).reshape(len(time), -1)
+            rows[:, 1:] = rise[:, None] * moved
+        return rows
+
+
+@dataclass(frozen=True, eq=False)
+class Waters:
+    """Strips of a turbine in a sea, with all that its forces depend on.
+
+    Attributes
+    ----------
+    strips : from the mudline up to the highest surface
+    water : its motion at the strips
+    still : height of the still surface in m
+    added_mass, drag : (n,) coefficients of the strips
+    """
+
+    turbine: Turbine
+    strips: Strips
+    water: Water
+    still: float
+    added_mass: Array
+    drag: Array
+
+    @staticmethod
+    def of(turbine: Turbine, sea: Sea) -> Waters:
+        realised: IrregularSea = sea.realise(turbine)
+        still = lowest = highest = 0.0
+        place, length, always = strips_up_to(
+            turbine.site.mudline, turbine.yaw_bearing, still, lowest, highest
+        )
+        strips = Strips(place, length, wetted_diameter(turbine, place), always)
+        kinematics = realised.kinematics_at(place)
+        velocity = np.stack([kinematics.horizontal, 0 * kinematics.horizontal, kinematics.vertical])
+        number = keulegan_carpenter(velocity + 0j, kinematics.omega, strips.diameter)
+        added = coefficient_at(turbine.hydrodynamics.added_mass_coefficient, place, number)
+        drag = coefficient_at(turbine.hydrodynamics.drag_coefficient, place, number)
+        for layer in turbine.hydrodynamics.marine_growth:
+            if layer.drag_coefficient is not None:
+                drag[(place >= layer.bottom) & (place < layer.top)] = layer.drag_coefficient
+        return Waters(turbine, strips, _LinearWater(kinematics), still, added, drag)
+
+    def loads(self) -> list[KernelLoad]:
+        """Every load of the water, the permanent added mass first."""
+        hydrodynamics = self.turbine.hydrodynamics
+        result: list[KernelLoad] = [self.permanent_added_mass(), self.wave_force()]
+        if not np.all(self.strips.wet):
+            result.append(self.splash_added_mass())
+        if hydrodynamics.buoyancy:
+            result.append(self.buoyancy())
+        if isinstance(hydrodynamics.contents, FloodedPile):
+            result += contents(self.turbine, hydrodynamics.contents)
+        return result
+
+    def permanent_added_mass(self) -> AddedMass:
+        """Of the strips that never fall dry."""
+        wet = self.strips.wet
+        return AddedMass.of(
+            self.strips.part(wet), self.turbine.site.water_density, self.added_mass[wet]
+        )
+
+    def splash_added_mass(self) -> SplashAddedMass:
+        """Of the strips that the surface wets and leaves."""
+        dry = ~self.strips.wet
+        part = self.strips.part(dry)
+        mass = self.turbine.site.water_density * self.added_mass[dry] * part.volume
+        return SplashAddedMass(part, mass, self.water)
+
+    def wave_force(self) -> MorisonForce:
+        """Fluid inertia and drag: of waves, if there are any, and on a structure that moves."""
+        return MorisonForce(
+            self.strips,
+            self.water,
+            self.turbine.site.water_density,
+            self.added_mass,
+            self.drag,
+        )
+
+    def buoyancy(self) -> Buoyancy:
+        """Of the water outside."""
+        end = wetted_diameter(self.turbine, np.array([self.turbine.site.mudline]))[0]
+        weight = self.turbine.site.water_density * self.turbine.site.gravity
+        return Buoyancy(self.strips, weight, np.pi / 4 * end**2, self.still, self.water)
+
+
+def contents(turbine: Turbine, inside: FloodedPile) -> list[KernelLoad]:
+    """Mass of the water inside, and where buoyancy acts its pressure on the wall.
+
+    The water moves with the wall across the axis, and stands still along it: its weight rests on
+    the plug, and its pressure on the wall.
+    """
+    plug = turbine.site.mudline if inside.plug is None else inside.plug
+    height, length = Strips.between(plug, inside.level)
+    strips = Strips(height, length, inner_diameter(turbine, height))
+    density = turbine.site.water_density if inside.density is None else inside.density
+    result: list[KernelLoad] = [AddedMass.of(strips, density, 1.0, "contained_water")]
+    if turbine.hydrodynamics.buoyancy:
+        end = inner_diameter(turbine, np.array([plug]))[0]
+        weight = -density * turbine.site.gravity
+        area = np.pi / 4 * end**2
+        result.append(Buoyancy(strips, weight, area, inside.level, name="contained_pressure"))
+    return result
+
+
+def water_loads(turbine: Turbine, sea: Sea) -> list[KernelLoad]:
+    """Every load of the water on a turbine in a sea; the permanent added mass comes first."""
+    return Waters.of(turbine, sea).loads()
