@@ -14,6 +14,7 @@ from helpers.waters import RegularWater
 
 import offwind_pin as ow
 from offwind_pin.dynamics.water_loads import Waters, contents
+from offwind_pin.dynamics.wind_loads import tower_drag
 from offwind_pin.loads.added_mass import AddedMass, SplashAddedMass
 from offwind_pin.loads.buoyancy import Buoyancy
 from offwind_pin.loads.dashpots import NO_DASHPOT, Dashpot
@@ -26,7 +27,9 @@ from offwind_pin.loads.python_load import PythonLoad
 from offwind_pin.loads.soil import LATERAL, ROCKING, TORSIONAL, VERTICAL, Direction, SoilSprings
 from offwind_pin.loads.soil_curves import soil_curves, tanh_curves
 from offwind_pin.loads.strips import Strips, strips_up_to
+from offwind_pin.loads.tower_drag import TowerDrag, TowerWind
 from offwind_pin.loads.tower_top import TowerTopLoad
+from offwind_pin.loads.wind_profile import ExtremeOperatingGust, PowerLaw
 from offwind_pin.turbines.base import Array
 from offwind_pin.turbines.depth_profile import DepthLine
 from offwind_pin.turbines.hydrodynamics import FloodedPile
@@ -144,6 +147,12 @@ def pressure_inside(oc6: ow.Turbine, folder: Path) -> KernelLoad:
     return contents(turbine, FloodedPile(kind="flooded", level=-1.0))[1]
 
 
+def wind(oc6: ow.Turbine, folder: Path) -> TowerDrag:
+    gust = ExtremeOperatingGust(8.0, start=0.0)
+    blowing = TowerWind(20.0, 100.0, PowerLaw(0.14), 0.7, direction=0.5, gust=gust)
+    return tower_drag(ow.build(oc6, "clamped", elements=12), blowing)
+
+
 def tower_top(oc6: ow.Turbine, folder: Path) -> TowerTopLoad:
     history = ow.LoadHistory(np.array([0.0, 5.0]), np.ones((2, 6)) * [[1e6], [2e6]], "test")
     return TowerTopLoad(oc6.yaw_bearing, history, history.at(0.0))
@@ -173,6 +182,7 @@ EXAMPLES: dict[type[KernelLoad], dict[str, Maker]] = {
     FrictionalMoment: {"friction": friction},
     MorisonForce: {"waves": waves, "still water": still_water, "splashing": splashing},
     AddedMass: {"added mass": moving_water, "water inside": water_inside},
+    TowerDrag: {"wind": wind},
     SplashAddedMass: {"splash added mass": splash_added_mass},
     Buoyancy: {"buoyancy": buoyancy, "pressure inside": pressure_inside},
     TowerTopLoad: {"tower top": tower_top},
@@ -299,11 +309,12 @@ def depends_on(name: str) -> set[str]:
         "waves": {"damping", "turning"},
         "still water": {"damping", "turning"},
         "splashing": {"damping", "turning"},
+        "wind": {"damping", "turning"},
         "added mass": {"inertia", "turning"},
         "water inside": {"inertia", "turning"},
         "splash added mass": {"inertia", "turning"},
-        "buoyancy": {"stiffness", "turning"},
-        "pressure inside": {"stiffness", "turning"},
+        "buoyancy": {"turning"},
+        "pressure inside": {"turning"},
         "tower top": set[str](),
         "friction": {"moment_coupling", "moment_stiffness"},
         "written in Python": {"stiffness", "damping", "inertia", "turning"},
@@ -450,6 +461,7 @@ def test_other_loads_store_nothing(oc6: ow.Turbine, tmp_path: Path) -> None:
         "waves",
         "still water",
         "splashing",
+        "wind",
         "splash added mass",
         "buoyancy",
         "pressure inside",

@@ -11,9 +11,9 @@ from offwind_pin.loads.points import KernelLoad, force_kernel, tangent_kernel
 from offwind_pin.loads.strips import Strips, Water, wet_share
 from offwind_pin.turbines.base import Array
 
-_LIFT, _BOTTOM, _LENGTH, _STILL, _CAP, _LEVEL = range(6)
+_LIFT, _BOTTOM, _LENGTH, _STILL, _CAP = range(5)
 """Columns of a point's constants: rho g V in N, the strip's ends in m and its wet share in still
-water; of the end of the wetted part rho g A in N/m, and the still level in m above it."""
+water; of the end of the wetted part p A in N."""
 
 
 @force_kernel
@@ -24,9 +24,8 @@ def _pressure_forces(
         axis, still = motion[i, 9:12], constants[i, _STILL]
         share = wet_share(row[0], constants[i, _BOTTOM], constants[i, _LENGTH])
         across = constants[i, _LIFT] * (share - still)
-        cap = constants[i, _CAP] * (constants[i, _LEVEL] - motion[i, 2])
         for j in range(3):
-            force[i, j] = -(across * axis[2] + cap) * axis[j]
+            force[i, j] = -(across * axis[2] + constants[i, _CAP]) * axis[j]
             force[i, 3 + j] = 0.0
         force[i, 2] += constants[i, _LIFT] * still + across
     return 0.0
@@ -40,11 +39,9 @@ def _pressure_tangents(
         axis = motion[i, 9:12]
         share = wet_share(row[0], constants[i, _BOTTOM], constants[i, _LENGTH])
         across = constants[i, _LIFT] * (share - constants[i, _STILL])
-        cap = constants[i, _CAP] * (constants[i, _LEVEL] - motion[i, 2])
         for j in range(3):
-            blocks[i, 0, j, 2] = constants[i, _CAP] * axis[j]
             blocks[i, 3, j, 2] -= across * axis[j]
-            blocks[i, 3, j, j] -= across * axis[2] + cap
+            blocks[i, 3, j, j] -= across * axis[2] + constants[i, _CAP]
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,9 +59,11 @@ class Buoyancy(KernelLoad):
 
     Above still water a strip that a wave wets takes the part normal to its axis,
     rho g V (z_hat - (z_hat.e) e) times its wet share, and below it a strip that falls dry loses
-    that part. Left out are the moment of the water plane's slope (rho g pi D^4/64 times the tilt)
-    and, along the axis, the pressure of waves on tapers and annuli. A top under water is
-    closed: it bears the pressure itself.
+    that part. Strips and pressures are those of the undeformed heights, all alike, so that a pile
+    that settles is not pressed down by its lower end alone. A top under water is closed: it bears
+    the pressure itself. Left out are the moment of sections that are not level (rho g pi D^4/64
+    times the tilt at the lower end, and times its change above) and, along the axis, the pressure
+    of waves on tapers and annuli.
 
     It is not exactly conservative, as the ends' force follows the axis; its power is counted as
     work.
@@ -96,12 +95,12 @@ class Buoyancy(KernelLoad):
 
     @cached_property
     def constants(self) -> Array:
-        result = np.zeros((len(self.height), 6))
+        result = np.zeros((len(self.height), 5))
         result[:-1, _LIFT] = self.weight * self.strips.volume
         result[:-1, [_BOTTOM, _LENGTH]] = self.strips.ends
         result[:-1, _STILL] = [wet_share(self.level, *end) for end in self.strips.ends]
         result[-1, [_BOTTOM, _LENGTH]] = -np.inf, 1.0
-        result[-1, [_CAP, _LEVEL]] = self.weight * self.end_area, self.level
+        result[-1, _CAP] = self.weight * self.end_area * (self.level - self.height[-1])
         return result
 
     def rows(self, time: Array, rise: Array) -> Array:

@@ -1,0 +1,57 @@
+"""MacCamy and Fuchs' diffraction against Bessel functions of their own and known limits."""
+
+import numpy as np
+import pytest
+from scipy.special import jv, yv
+
+from offwind_pin.loads.diffraction import SMALLEST, maccamy_fuchs
+
+SIZES = np.array([0.05, 0.1, 0.3, 0.7, 1.0, 1.5, 2.0, 3.0])
+"""Radius times wave number."""
+
+
+def closed_form(size: float) -> tuple[float, float]:
+    """Amplitude and lag of the force over rho pi a^2 times the acceleration at the axis.
+
+    The force is 4 rho g A / k |.| cos(omega t - alpha) with tan alpha = J1'/Y1' (MacCamy and Fuchs,
+    1954); the acceleration -g k A sin(omega t), both times the depth's factor.
+    """
+    j = (jv(0, size) - jv(2, size)) / 2
+    y = (yv(0, size) - yv(2, size)) / 2
+    return 4 / (np.pi * size**2 * np.hypot(j, y)), np.arctan2(j, y)
+
+
+@pytest.mark.parametrize("size", SIZES.tolist())
+def test_amplitude_and_phase(size: float) -> None:
+    found = maccamy_fuchs(np.array([2.0]), np.array([size]))[0, 0]
+    amplitude, lag = closed_form(size)
+    assert abs(found) == pytest.approx(amplitude, rel=1e-12)
+    time = np.linspace(0.0, 2 * np.pi, 33)
+    force = (found * 1j * np.exp(1j * time)).real
+    assert force == pytest.approx(-amplitude * np.sin(time - lag), abs=1e-12 * amplitude)
+
+
+def test_long_waves_are_morison_s() -> None:
+    """The limit is 2, met with the square of the size, and kept where waves have no length."""
+    wave_number = np.array([0.0, 1e-9, SMALLEST * 1.01, 1e-3, 1e-2])
+    ratio = maccamy_fuchs(np.array([2.0]), wave_number)[0]
+    assert np.all(ratio[:2] == 2)
+    assert abs(ratio[2] - 2) < 1e-9
+    assert abs(ratio[3] - 2) < 1e-4
+    assert 1e-4 < abs(ratio[4] - 2) < 1e-2
+
+
+def test_short_waves_lose_their_force() -> None:
+    """|H1'| goes as sqrt(2 / (pi ka)), the ratio as its inverse over (ka)^2."""
+    size = np.array([50.0, 200.0])
+    ratio = maccamy_fuchs(np.array([2.0]), size)[0]
+    assert np.abs(ratio) == pytest.approx(
+        4 / (np.pi * size**2) * np.sqrt(np.pi * size / 2), rel=1e-3
+    )
+
+
+def test_shapes() -> None:
+    """(n, m) of n diameters and m wave numbers; only their product counts."""
+    ratio = maccamy_fuchs(np.array([1.0, 2.0, 9.0]), np.array([0.2, 0.4]))
+    assert ratio.shape == (3, 2)
+    assert ratio[0, 1] == ratio[1, 0]
