@@ -13,7 +13,8 @@ class RegularWater:
     """An Airy wave along +x at heights (n,) over a depth in m, written out once more.
 
     The crest passes at time 0. The surface moves if ``stretched``; it then wets strips, whose
-    velocities are those of the formula at their own heights.
+    velocities are those of the formula at their own heights. The amplitudes of the accelerations
+    are multiplied by a factor.
     """
 
     height: Array
@@ -22,6 +23,7 @@ class RegularWater:
     omega: float
     wave_number: float
     stretched: bool = False
+    inertia_factor: complex = 1.0
 
     @property
     def highest_surface(self) -> float:
@@ -39,7 +41,7 @@ class RegularWater:
         velocity[..., 0] = phase * size * np.cosh(k * above_bed)
         velocity[..., 2] = phase * 1j * size * np.sinh(k * above_bed)
         surface = phase * self.highest_surface
-        moving = [velocity, 1j * self.omega * velocity]
+        moving = [velocity, 1j * self.omega * self.inertia_factor * velocity]
         parts = [surface, *(part.reshape(len(time), -1) for part in moving)]
         return np.ascontiguousarray(np.hstack(parts).real)
 

@@ -2,9 +2,12 @@
 
 import numpy as np
 import pytest
+from helpers.waters import RegularWater, upright
 from scipy.special import jv, yv
 
-from offwind_pin.loads.diffraction import SMALLEST, maccamy_fuchs
+from offwind_pin.loads.diffraction import SMALLEST, inertia_factor, maccamy_fuchs
+from offwind_pin.loads.morison import MorisonForce
+from offwind_pin.loads.strips import Strips
 
 SIZES = np.array([0.05, 0.1, 0.3, 0.7, 1.0, 1.5, 2.0, 3.0])
 """Radius times wave number."""
@@ -55,3 +58,35 @@ def test_shapes() -> None:
     ratio = maccamy_fuchs(np.array([1.0, 2.0, 9.0]), np.array([0.2, 0.4]))
     assert ratio.shape == (3, 2)
     assert ratio[0, 1] == ratio[1, 0]
+
+
+RADIUS, DEPTH, GRAVITY, DENSITY, AMPLITUDE, ADDED = 20.0, 60.0, 9.80665, 1025.0, 1.0, 0.8
+
+
+@pytest.mark.parametrize("size", SIZES.tolist())
+def test_force_on_a_rigid_cylinder_in_time(size: float) -> None:
+    """4 rho g A tanh(kh) / (k^2 |H1'|), with its phase, from the strips' forces over a period."""
+    k = size / RADIUS
+    omega = np.sqrt(GRAVITY * k * np.tanh(k * DEPTH))
+    height, length = Strips.between(-DEPTH, 0.0)
+    diameter = np.full(len(height), 2 * RADIUS)
+    factor = inertia_factor(diameter, np.array([k]), np.full(len(height), ADDED))
+    assert np.all(factor == factor[0])
+    water = RegularWater(
+        height, DEPTH, AMPLITUDE, omega, k, inertia_factor=complex(factor[0, 0])
+    )
+    load = MorisonForce(Strips(height, length, diameter), water, DENSITY, ADDED, 0.0)
+    phase = 2 * np.pi * np.arange(32) / 32
+    motion = upright(height)
+    force = np.array([load.forces(p / omega, motion, 1.0).force[:, 0].sum() for p in phase])
+    found = 2 * np.mean(force * np.exp(-1j * phase))
+    assert force == pytest.approx((found * np.exp(1j * phase)).real, abs=1e-9 * abs(found))
+    relative, lag = closed_form(size)
+    amplitude = DENSITY * GRAVITY * AMPLITUDE * np.pi * RADIUS**2 * np.tanh(k * DEPTH) * relative
+    assert abs(found) == pytest.approx(amplitude, rel=1e-3)
+    assert np.angle(found / (1j * np.exp(-1j * lag))) == pytest.approx(0.0, abs=1e-3)
+
+
+def test_without_diffraction_short_waves_are_overstated() -> None:
+    """Negative control: Morison's own force is far off the closed form at ka = 1.5."""
+    assert 2 / closed_form(1.5)[0] > 1.5

@@ -30,3 +30,11 @@ def maccamy_fuchs(diameter: Array, wave_number: Array) -> ComplexArray:
     safe = np.where(long, 1.0, size)
     ratio = -4j / (np.pi * safe**2 * h2vp(1, safe))
     return np.where(long, 2.0 + 0.0j, ratio)
+
+
+def inertia_factor(diameter: Array, wave_number: Array, added_mass: Array) -> ComplexArray:
+    """(n, m) by which a strip's inertia force with 1 + Ca is multiplied to be that of diffraction.
+
+    added_mass : (n,) coefficients Ca of the strips
+    """
+    return maccamy_fuchs(diameter, wave_number) / (1 + added_mass)[:, None]
