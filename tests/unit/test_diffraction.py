@@ -72,9 +72,7 @@ def test_force_on_a_rigid_cylinder_in_time(size: float) -> None:
     diameter = np.full(len(height), 2 * RADIUS)
     factor = inertia_factor(diameter, np.array([k]), np.full(len(height), ADDED))
     assert np.all(factor == factor[0])
-    water = RegularWater(
-        height, DEPTH, AMPLITUDE, omega, k, inertia_factor=complex(factor[0, 0])
-    )
+    water = RegularWater(height, DEPTH, AMPLITUDE, omega, k, inertia_factor=complex(factor[0, 0]))
     load = MorisonForce(Strips(height, length, diameter), water, DENSITY, ADDED, 0.0)
     phase = 2 * np.pi * np.arange(32) / 32
     motion = upright(height)
