@@ -23,9 +23,12 @@ from offwind_pin.campaign.soil_files import write_soil
 from offwind_pin.campaign.soil_overview import SoilOverview, soil_overview
 from offwind_pin.dynamics.sea import IrregularWaves, StillWater
 from offwind_pin.dynamics.system import System
+from offwind_pin.dynamics.wind_loads import tower_drag
 from offwind_pin.errors import InputError, InterruptedSimulation, OffwindError, SolverError
 from offwind_pin.loads.synthetic_wind import SyntheticWind
+from offwind_pin.loads.tower_drag import TowerWind
 from offwind_pin.loads.tower_top import LoadHistory, read_load_history
+from offwind_pin.loads.wind_profile import ExtremeOperatingGust, LogLaw, PowerLaw, WindSeries
 from offwind_pin.solve.steps import AdaptiveStep, FixedStep
 from offwind_pin.turbines.definition import Turbine
 from offwind_pin.turbines.reader import load_turbine, shipped_turbines
@@ -34,6 +37,7 @@ __all__ = [
     "AdaptiveStep",
     "Condensation",
     "DeflectionTarget",
+    "ExtremeOperatingGust",
     "FixedStep",
     "FrequencyTarget",
     "GeneralizedAlpha",
@@ -42,9 +46,11 @@ __all__ = [
     "InterruptedSimulation",
     "IrregularWaves",
     "LoadHistory",
+    "LogLaw",
     "ModalResult",
     "OffwindError",
     "Parameter",
+    "PowerLaw",
     "Pushover",
     "SciPyIVP",
     "ShapeTarget",
@@ -54,7 +60,9 @@ __all__ = [
     "StillWater",
     "SyntheticWind",
     "System",
+    "TowerWind",
     "Turbine",
+    "WindSeries",
     "build",
     "condense",
     "equivalent_damping",
@@ -69,5 +77,6 @@ __all__ = [
     "simulate",
     "soil_overview",
     "static",
+    "tower_drag",
     "write_soil",
 ]
