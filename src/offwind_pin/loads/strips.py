@@ -84,6 +84,13 @@ class Strips:
         )
 
 
+def surface_rows(water: Water, time: Array, rise: Array) -> Array:
+    """(t, 1) height of the surface in m, for loads that need nothing else of the water."""
+    if water.highest_surface == water.lowest_surface:
+        return np.full((len(time), 1), water.highest_surface)
+    return water.rows(time, rise)[:, :1]
+
+
 def strips_up_to(
     mudline: float, top: float, still: float, lowest: float, highest: float
 ) -> tuple[Array, Array, NDArray[np.bool_]]:
