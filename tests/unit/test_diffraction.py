@@ -5,9 +5,12 @@ import pytest
 from helpers.waters import RegularWater, upright
 from scipy.special import jv, yv
 
+import offwind_pin as ow
+from offwind_pin.dynamics.water_loads import Waters
 from offwind_pin.loads.diffraction import SMALLEST, inertia_factor, maccamy_fuchs
 from offwind_pin.loads.morison import MorisonForce
 from offwind_pin.loads.strips import Strips
+from offwind_pin.loads.waves import wave_number
 
 SIZES = np.array([0.05, 0.1, 0.3, 0.7, 1.0, 1.5, 2.0, 3.0])
 """Radius times wave number."""
@@ -88,3 +91,43 @@ def test_force_on_a_rigid_cylinder_in_time(size: float) -> None:
 def test_without_diffraction_short_waves_are_overstated() -> None:
     """Negative control: Morison's own force is far off the closed form at ka = 1.5."""
     assert 2 / closed_form(1.5)[0] > 1.5
+
+
+def diffracted(oc6: ow.Turbine, name: str) -> Waters:
+    keys = {"diffraction": name, "added_mass_coefficient": ADDED}
+    turbine = oc6.model_copy(update={"hydrodynamics": oc6.hydrodynamics.model_copy(update=keys)})
+    return Waters.of(turbine, ow.IrregularWaves(2.0, 6.0, seed=4, repeat_period=300.0))
+
+
+def test_a_sea_s_harmonics_are_each_diffracted(oc6: ow.Turbine) -> None:
+    """Spectra of the force on every strip: with diffraction over without, at each frequency."""
+    time = np.arange(3000) / 10.0
+    spectra = []
+    for name in ("maccamy_fuchs", "none"):
+        waters = diffracted(oc6, name)
+        n = len(waters.strips.height)
+        rows = waters.wave_force().rows(time, np.ones(len(time)))
+        pushed = rows[:, 1 + 3 * n :].reshape(-1, n, 3)[:, :, [0, 2]]
+        spectra.append(np.fft.rfft(pushed, axis=0))
+        assert np.all(waters.wave_force().rows(time[:1], np.zeros(1)) == 0)
+    harmonic = np.arange(21, 240)
+    omega = 2 * np.pi * harmonic / 300.0
+    k = wave_number(omega, 30.0, GRAVITY)
+    expected = maccamy_fuchs(np.array([9.0]), k)[0] / (1 + ADDED)
+    for strip in (10, 40, 59):
+        ratio = spectra[0][harmonic, strip, 0] / spectra[1][harmonic, strip, 0]
+        strong = np.abs(spectra[1][harmonic, strip, 0]) > 1e-4
+        assert np.count_nonzero(strong) > 50
+        assert ratio[strong] == pytest.approx(expected[strong], rel=1e-5)
+    assert np.abs(spectra[0][harmonic, 59, 1] / spectra[1][harmonic, 59, 1]) == pytest.approx(
+        np.abs(expected), rel=1e-6
+    )
+
+
+def test_velocities_are_those_of_the_undisturbed_wave(oc6: ow.Turbine) -> None:
+    time = np.linspace(0.0, 7.0, 5)
+    rows = [
+        diffracted(oc6, name).wave_force().rows(time, np.ones(5))[:, : 1 + 3 * 60]
+        for name in ("maccamy_fuchs", "none")
+    ]
+    assert np.array_equal(*rows)

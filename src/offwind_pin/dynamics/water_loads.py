@@ -9,31 +9,56 @@ import numpy as np
 from offwind_pin.dynamics.sea import Sea
 from offwind_pin.loads.added_mass import AddedMass, SplashAddedMass
 from offwind_pin.loads.buoyancy import Buoyancy
+from offwind_pin.loads.diffraction import inertia_factor
 from offwind_pin.loads.keulegan_carpenter import keulegan_carpenter
 from offwind_pin.loads.morison import MorisonForce
 from offwind_pin.loads.points import KernelLoad
 from offwind_pin.loads.strips import Strips, Water, strips_up_to
-from offwind_pin.loads.waves import IrregularSea, WaveKinematics
+from offwind_pin.loads.waves import IrregularSea, WaveKinematics, wave_number
 from offwind_pin.structure.section import inner_diameter, wetted_diameter
-from offwind_pin.turbines.base import Array
+from offwind_pin.turbines.base import Array, ComplexArray
 from offwind_pin.turbines.definition import Turbine
 from offwind_pin.turbines.hydrodynamics import FloodedPile, coefficient_at
+
+_BLOCK = 128
+"""Times for which all components are held in memory at once."""
 
 
 @dataclass(frozen=True, eq=False)
 class _LinearWater:
-    """Airy waves up to still water level."""
+    """Airy waves up to still water level.
+
+    inertia_factor (n, m) by which the amplitude of each component's acceleration is multiplied at
+    each strip; None for 1
+    """
 
     kinematics: WaveKinematics
+    inertia_factor: ComplexArray | None = None
     highest_surface: float = 0.0
     lowest_surface: float = 0.0
 
     def rows(self, time: Array, rise: Array) -> Array:
-        rows = np.zeros((len(time), 1 + 6 * len(self.kinematics.horizontal)))
+        n = len(self.kinematics.horizontal)
+        rows = np.zeros((len(time), 1 + 6 * n))
         if len(self.kinematics.omega) > 0:
-            moved = self.kinematics.at_times(time).reshape(len(time), -1)
-            rows[:, 1:] = rise[:, None] * moved
+            moved = self.kinematics.at_times(time)
+            if self.inertia_factor is not None:
+                moved[:, 1] = self._accelerations(time, self.inertia_factor)
+            rows[:, 1:] = rise[:, None] * moved.reshape(len(time), -1)
         return rows
+
+    def _accelerations(self, time: Array, factor: ComplexArray) -> Array:
+        """(t, n, 3) accelerations with a factor (n, m), by blocks of times."""
+        waves = self.kinematics
+        result = np.zeros((len(time), len(waves.horizontal), 3))
+        turned = 1j * waves.omega * factor * np.exp(-1j * waves.phase)
+        for axis, amplitude in ((0, waves.horizontal + 0j), (2, 1j * waves.vertical)):
+            of_component = (turned * amplitude).T
+            for block in np.array_split(np.arange(len(time)), len(time) // _BLOCK + 1):
+                angle = np.outer(time[block], waves.omega)
+                moved = np.cos(angle) @ of_component.real - np.sin(angle) @ of_component.imag
+                result[block, :, axis] = moved
+        return result
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,7 +96,11 @@ class Waters:
         for layer in turbine.hydrodynamics.marine_growth:
             if layer.drag_coefficient is not None:
                 drag[(place >= layer.bottom) & (place < layer.top)] = layer.drag_coefficient
-        return Waters(turbine, strips, _LinearWater(kinematics), still, added, drag)
+        factor = None
+        if turbine.hydrodynamics.diffraction == "maccamy_fuchs":
+            k = wave_number(kinematics.omega, realised.depth, realised.gravity)
+            factor = inertia_factor(strips.diameter, k, added)
+        return Waters(turbine, strips, _LinearWater(kinematics, factor), still, added, drag)
 
     def loads(self) -> list[KernelLoad]:
         """Every load of the water, the permanent added mass first."""
