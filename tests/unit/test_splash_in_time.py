@@ -20,8 +20,11 @@ STEPS = np.array([0.04, 0.02, 0.01])
 
 
 @pytest.fixture(scope="module")
-def system(oc6: ow.Turbine) -> Iterator[ow.System]:
-    """A regular wave 8 m high in 30 m of water, at the place of the still water that is built."""
+def built(oc6: ow.Turbine) -> Iterator[tuple[ow.System, ow.ModalResult]]:
+    """A regular wave 8 m high in 30 m of water, in place of the still water that is built.
+
+    With it come the modes in still water, of strips that end at its surface.
+    """
 
     def stretched(turbine: ow.Turbine, sea: Sea) -> Waters:
         height, length, wet = strips_up_to(-30.0, turbine.yaw_bearing, 0.0, -AMPLITUDE, AMPLITUDE)
@@ -32,10 +35,16 @@ def system(oc6: ow.Turbine) -> Iterator[ow.System]:
     turbine = oc6.model_copy(
         update={"hydrodynamics": oc6.hydrodynamics.model_copy(update={"buoyancy": True})}
     )
-    built = ow.build(turbine, "coupled_springs", ow.StillWater(), elements=16)
+    system = ow.build(turbine, "coupled_springs", ow.StillWater(), elements=16)
+    still = ow.modes(system)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(Waters, "of", staticmethod(stretched))
-        yield built
+        yield system, still
+
+
+@pytest.fixture(scope="module")
+def system(built: tuple[ow.System, ow.ModalResult]) -> ow.System:
+    return built[0]
 
 
 @pytest.fixture(scope="module")
@@ -75,6 +84,17 @@ def test_mass_matrix_at_a_time(system: ow.System) -> None:
     for found, time in zip(sideways, (0.0, 3.5), strict=True):
         surface = AMPLITUDE * np.cos(OMEGA * time)
         assert found == pytest.approx(line * surface, rel=0.03)
+
+
+def test_modes_see_the_still_surface(built: tuple[ow.System, ow.ModalResult]) -> None:
+    """The added mass of the splash zone is that up to still water, met within the smoothing."""
+    system, still = built
+    modes = ow.modes(system)
+    assert modes.label == still.label
+    assert modes.frequency_hz == pytest.approx(still.frequency_hz, rel=2e-5)
+    dry = ow.build(system.turbine, "coupled_springs", elements=16)
+    i = still.index("FA2")
+    assert abs(ow.modes(dry).frequency_hz[i] / still.frequency_hz[i] - 1) > 1e-3
 
 
 def test_compiled_chain_and_pinocchio_agree(system: ow.System) -> None:
