@@ -11,9 +11,7 @@ from helpers.waters import RegularWater
 import offwind_pin as ow
 from offwind_pin.dynamics.compiled_chain import CompiledChain
 from offwind_pin.dynamics.sea import Sea
-from offwind_pin.dynamics.water_loads import Waters
-from offwind_pin.loads.strips import Strips, strips_up_to
-from offwind_pin.structure.section import wetted_diameter
+from offwind_pin.dynamics.water_loads import Waters, wetted_strips
 
 AMPLITUDE, OMEGA, WAVE_NUMBER = 4.0, 0.9, 0.088
 STEPS = np.array([0.04, 0.02, 0.01])
@@ -27,10 +25,10 @@ def built(oc6: ow.Turbine) -> Iterator[tuple[ow.System, ow.ModalResult]]:
     """
 
     def stretched(turbine: ow.Turbine, sea: Sea) -> Waters:
-        height, length, wet = strips_up_to(-30.0, turbine.yaw_bearing, 0.0, -AMPLITUDE, AMPLITUDE)
-        strips = Strips(height, length, wetted_diameter(turbine, height), wet)
-        wave = RegularWater(height, 30.0, AMPLITUDE, OMEGA, WAVE_NUMBER, stretched=True)
-        return Waters(turbine, strips, wave, 0.0, np.ones(len(height)), np.ones(len(height)))
+        strips = wetted_strips(turbine, 0.0, -AMPLITUDE, AMPLITUDE)
+        one = np.ones(len(strips.height))
+        wave = RegularWater(strips.height, 30.0, AMPLITUDE, OMEGA, WAVE_NUMBER, stretched=True)
+        return Waters(turbine, strips, wave, 0.0, one, one)
 
     turbine = oc6.model_copy(
         update={"hydrodynamics": oc6.hydrodynamics.model_copy(update={"buoyancy": True})}
@@ -95,6 +93,13 @@ def test_modes_see_the_still_surface(built: tuple[ow.System, ow.ModalResult]) ->
     dry = ow.build(system.turbine, "coupled_springs", elements=16)
     i = still.index("FA2")
     assert abs(ow.modes(dry).frequency_hz[i] / still.frequency_hz[i] - 1) > 1e-3
+
+
+def test_wind_begins_above_the_highest_surface(system: ow.System) -> None:
+    """Strips of the tower start where those of the splash zone cannot be wet."""
+    wind = ow.TowerWind(10.0, 100.0, ow.PowerLaw(0.14), 0.7)
+    strips = ow.tower_drag(system, wind).strips
+    assert strips.height[0] - strips.length[0] / 2 == pytest.approx(AMPLITUDE, rel=1e-14)
 
 
 def test_compiled_chain_and_pinocchio_agree(system: ow.System) -> None:

@@ -83,24 +83,13 @@ class Waters:
     @staticmethod
     def of(turbine: Turbine, sea: Sea) -> Waters:
         realised: IrregularSea = sea.realise(turbine)
-        still = lowest = highest = 0.0
-        place, length, always = strips_up_to(
-            turbine.site.mudline, turbine.yaw_bearing, still, lowest, highest
-        )
-        strips = Strips(place, length, wetted_diameter(turbine, place), always)
-        kinematics = realised.kinematics_at(place)
-        velocity = np.stack([kinematics.horizontal, 0 * kinematics.horizontal, kinematics.vertical])
-        number = keulegan_carpenter(velocity + 0j, kinematics.omega, strips.diameter)
-        added = coefficient_at(turbine.hydrodynamics.added_mass_coefficient, place, number)
-        drag = coefficient_at(turbine.hydrodynamics.drag_coefficient, place, number)
-        for layer in turbine.hydrodynamics.marine_growth:
-            if layer.drag_coefficient is not None:
-                drag[(place >= layer.bottom) & (place < layer.top)] = layer.drag_coefficient
-        factor = None
-        if turbine.hydrodynamics.diffraction == "maccamy_fuchs":
-            k = wave_number(kinematics.omega, realised.depth, realised.gravity)
-            factor = inertia_factor(strips.diameter, k, added)
-        return Waters(turbine, strips, _LinearWater(kinematics, factor), still, added, drag)
+        strips = wetted_strips(turbine, still=0.0, lowest=0.0, highest=0.0)
+        kinematics = realised.kinematics_at(strips.height)
+        amplitude = [kinematics.horizontal, 0 * kinematics.horizontal, 1j * kinematics.vertical]
+        added, drag = coefficients(turbine, strips, np.stack(amplitude), kinematics.omega)
+        k = wave_number(kinematics.omega, realised.depth, realised.gravity)
+        water = _LinearWater(kinematics, diffraction(turbine, strips, k, added))
+        return Waters(turbine, strips, water, 0.0, added, drag)
 
     def loads(self) -> list[KernelLoad]:
         """Every load of the water, the permanent added mass first."""
@@ -143,6 +132,44 @@ class Waters:
         end = wetted_diameter(self.turbine, np.array([self.turbine.site.mudline]))[0]
         weight = self.turbine.site.water_density * self.turbine.site.gravity
         return Buoyancy(self.strips, weight, np.pi / 4 * end**2, self.still, self.water)
+
+
+def wetted_strips(turbine: Turbine, still: float, lowest: float, highest: float) -> Strips:
+    """Strips from the mudline up to what a sea reaches, with their marine growth.
+
+    still, lowest, highest : heights of the surface in m; all equal where waves are not stretched
+    """
+    height, length, wet = strips_up_to(
+        turbine.site.mudline, turbine.yaw_bearing, still, lowest, highest
+    )
+    return Strips(height, length, wetted_diameter(turbine, height), wet)
+
+
+def coefficients(
+    turbine: Turbine, strips: Strips, velocity: ComplexArray, omega: Array
+) -> tuple[Array, Array]:
+    """Added-mass and drag coefficients (n,) of strips in waves.
+
+    velocity (3, n, m) complex amplitudes of the water at the strips in m/s, taken at the still
+    surface where a strip lies above it; omega (m,) in rad/s
+    """
+    z, hydrodynamics = strips.height, turbine.hydrodynamics
+    number = keulegan_carpenter(velocity, omega, strips.diameter)
+    added = coefficient_at(hydrodynamics.added_mass_coefficient, z, number)
+    drag = coefficient_at(hydrodynamics.drag_coefficient, z, number)
+    for layer in hydrodynamics.marine_growth:
+        if layer.drag_coefficient is not None:
+            drag[(z >= layer.bottom) & (z < layer.top)] = layer.drag_coefficient
+    return added, drag
+
+
+def diffraction(
+    turbine: Turbine, strips: Strips, wave_number: Array, added_mass: Array
+) -> ComplexArray | None:
+    """(n, m) factors of the acceleration of each harmonic at each strip, or None for one."""
+    if turbine.hydrodynamics.diffraction == "none":
+        return None
+    return inertia_factor(strips.diameter, wave_number, added_mass)
 
 
 def contents(turbine: Turbine, inside: FloodedPile) -> list[KernelLoad]:

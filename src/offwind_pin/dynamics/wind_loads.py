@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from offwind_pin.dynamics.system import System
+from offwind_pin.dynamics.water_loads import Waters
 from offwind_pin.errors import InputError
 from offwind_pin.loads.strips import Strips
 from offwind_pin.loads.tower_drag import STRIP_LENGTH, TowerDrag, TowerWind
@@ -21,8 +22,7 @@ def tower_drag(system: System, wind: TowerWind) -> TowerDrag:
     ------
     InputError : nothing of the structure is above water
     """
-    water_line = 0.0 if system.sea is None else highest_surface(system)
-    low, top = max(water_line, system.chain.base), system.chain.top
+    low, top = max(_water_line(system), system.chain.base), system.chain.top
     if low >= top:
         raise InputError(
             "tower wind",
@@ -37,6 +37,8 @@ def tower_drag(system: System, wind: TowerWind) -> TowerDrag:
     return TowerDrag(strips, wind)
 
 
-def highest_surface(system: System) -> float:
-    """Height in m that the water of a system does not exceed."""
-    return 0.0
+def _water_line(system: System) -> float:
+    """Height in m that the water does not exceed; still water level of a dry structure."""
+    if system.sea is None:
+        return 0.0
+    return Waters.of(system.turbine, system.sea).water.highest_surface
