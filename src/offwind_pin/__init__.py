@@ -7,6 +7,7 @@
 ['SS1', 'FA1']
 """
 
+from offwind_pin.analysis.aerodynamic_damping import aerodynamic_damping
 from offwind_pin.analysis.build import build
 from offwind_pin.analysis.condensation import Condensation, condense
 from offwind_pin.analysis.equivalent_damping import equivalent_damping
@@ -24,11 +25,14 @@ from offwind_pin.campaign.soil_overview import SoilOverview, soil_overview
 from offwind_pin.dynamics.sea import IrregularWaves, StillWater
 from offwind_pin.dynamics.system import System
 from offwind_pin.errors import InputError, InterruptedSimulation, OffwindError, SolverError
+from offwind_pin.loads.rotor_thrust import RotorThrust, thrust_curve
+from offwind_pin.loads.rotor_turbulence import RotorWind
 from offwind_pin.loads.synthetic_wind import SyntheticWind
 from offwind_pin.loads.tower_top import LoadHistory, read_load_history
 from offwind_pin.solve.steps import AdaptiveStep, FixedStep
 from offwind_pin.turbines.definition import Turbine
 from offwind_pin.turbines.reader import load_turbine, shipped_turbines
+from offwind_pin.turbines.rotor_disc import rotor_disc
 
 __all__ = [
     "AdaptiveStep",
@@ -46,6 +50,8 @@ __all__ = [
     "OffwindError",
     "Parameter",
     "Pushover",
+    "RotorThrust",
+    "RotorWind",
     "SciPyIVP",
     "ShapeTarget",
     "SoilOverview",
@@ -55,6 +61,7 @@ __all__ = [
     "SyntheticWind",
     "System",
     "Turbine",
+    "aerodynamic_damping",
     "build",
     "condense",
     "equivalent_damping",
@@ -65,9 +72,11 @@ __all__ = [
     "pile_only",
     "pushover",
     "read_load_history",
+    "rotor_disc",
     "shipped_turbines",
     "simulate",
     "soil_overview",
     "static",
+    "thrust_curve",
     "write_soil",
 ]

@@ -64,6 +64,19 @@ def test_chosen_channels(tmp_path: Path) -> None:
     assert np.all(history.load[:, [1, 2, 3, 5]] == 0)
 
 
+def test_older_files_in_latin_1(tmp_path: Path) -> None:
+    """Their kN·m is a byte that is no UTF-8, in text and binary."""
+    old = [*UNITS[:3], *["(kN.m)"] * 3]
+    text, packed = tmp_path / "run.out", tmp_path / "run.outb"
+    write_out(text, TIME, YAW_BEARING, old, some_load(TIME))
+    write_outb(packed, 3, TIME, YAW_BEARING, old, some_load(TIME))
+    for path in (text, packed):
+        path.write_bytes(path.read_bytes().replace(b"kN.m", b"kN\xb7m"))
+        output = read_openfast_output(path)
+        assert output.unit[3] == "(kN·m)"
+        assert_allclose(output.channel("YawBrMyp", MOMENT), 1e3 * some_load(TIME)[:, 4], rtol=1e-8)
+
+
 @pytest.mark.parametrize(
     ("unit", "kind", "factor"),
     [
@@ -128,7 +141,7 @@ def test_truncated_anywhere(tmp_path: Path, kind: int) -> None:
         (26, struct.pack("<f", float("inf")), "slope"),
         (74, struct.pack("<i", -1), "description"),
         (74, struct.pack("<i", 2**31 - 1), "description"),
-        (100, b"\xff", "names"),
+        (100, b"\x80", "names"),
         (100, b"\x07", "names"),
     ],
 )

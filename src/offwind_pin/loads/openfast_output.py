@@ -12,7 +12,7 @@ import numpy as np
 
 from offwind_pin.errors import InputError
 from offwind_pin.loads.load_units import TIME, si_factor
-from offwind_pin.number_files import read_text, to_numbers
+from offwind_pin.number_files import to_numbers
 from offwind_pin.turbines.base import Array
 
 SUFFIXES = {".out", ".outb"}
@@ -90,7 +90,11 @@ def read_openfast_output(path: Path) -> OpenFastOutput:
 
 
 def _read_text(path: Path) -> OpenFastOutput:
-    text = read_text(path)
+    content = _read_bytes(path)
+    try:
+        text = content.decode("utf-8-sig")
+    except UnicodeDecodeError:  # older versions write the dot of kN.m in Latin-1
+        text = content.decode("latin-1")
     lines = text.splitlines()
     head = next((i for i, row in enumerate(lines[:_HEADER_LINES]) if _begins_table(row)), None)
     if head is None or head + 1 >= len(lines):
@@ -126,8 +130,17 @@ def _read_text(path: Path) -> OpenFastOutput:
         )
     values = np.array(rows)
     time = values[:, 0] * si_factor(f"{path}, channel Time", units[0], TIME)
-    digest = hashlib.sha256(text.encode()).hexdigest()
+    digest = hashlib.sha256(content).hexdigest()
     return OpenFastOutput(path, digest, time, names[1:], units[1:], values[:, 1:], place, "line")
+
+
+def _read_bytes(path: Path) -> bytes:
+    try:
+        return path.read_bytes()
+    except FileNotFoundError:
+        raise InputError(str(path), "no such file", "an existing file", "Check the path.") from None
+    except OSError as error:
+        raise InputError(str(path), str(error), "a readable file", "Check it.") from None
 
 
 def _begins_table(row: str) -> bool:
@@ -172,11 +185,7 @@ class _Bytes:
         return np.frombuffer(self.take(width * count, what), dtype=kind).astype(float)
 
     def texts(self, count: int, length: int, what: str) -> list[str]:
-        raw = self.take(count * length, what)
-        try:
-            whole = raw.decode("ascii")
-        except UnicodeDecodeError:
-            raise self.wrong(what, raw[:40], "ASCII text") from None
+        whole = self.take(count * length, what).decode("latin-1")
         found = [whole[i * length : (i + 1) * length].strip(" \0") for i in range(count)]
         for text in found:
             if not text.isprintable():
@@ -189,12 +198,7 @@ class _Bytes:
 
 
 def _read_binary(path: Path) -> OpenFastOutput:
-    try:
-        content = path.read_bytes()
-    except FileNotFoundError:
-        raise InputError(str(path), "no such file", "an existing file", "Check the path.") from None
-    except OSError as error:
-        raise InputError(str(path), str(error), "a readable file", "Check it.") from None
+    content = _read_bytes(path)
     data = _Bytes(path, content)
     kind = data.count("h", "FileID", WITH_TIME, OWN_NAME_LENGTH)
     length = _NAME_LENGTH

@@ -261,7 +261,7 @@ class RotorWind:
         r = root + (disc.radius - root) * x
         weight = weight * 2 * r / (disc.radius + root)
         up = r * np.cos(azimuth)[:, None] * np.cos(disc.tilt)
-        across = r * np.sin(azimuth)[:, None]
+        across = -r * np.sin(azimuth)[:, None]
         ahead = disc.overhang * np.cos(disc.tilt) - r * np.cos(azimuth)[:, None] * np.sin(disc.tilt)
         wind = self.wind_speed * (1 + up / disc.hub_height) ** self.shear_exponent
         if self.tower_shadow:
