@@ -204,6 +204,17 @@ def test_gap_and_unknown_channel(tmp_path: Path) -> None:
         from_channels(read_openfast_output(path), {"Fx": "YawBrFx"})
 
 
+def test_a_run_that_diverged(tmp_path: Path) -> None:
+    """Loads that no turbine gives, and values that are no numbers, are told with their step."""
+    for value, told in ((1e9, "time step 31, Fy"), (np.nan, "YawBrFyp, time step 31")):
+        data = some_load(TIME)
+        data[30, 1] = value
+        path = tmp_path / "run.outb"
+        write_outb(path, 3, TIME, YAW_BEARING, UNITS, data)
+        with pytest.raises(ow.InputError, match=told):
+            from_channels(read_openfast_output(path), DEFAULT)
+
+
 def test_gap_in_seven_columns(tmp_path: Path) -> None:
     """The same in a file of seven columns; a short table of corners may be as uneven as it likes."""
     path = tmp_path / "loads.txt"
@@ -310,3 +321,24 @@ def test_resampling_is_told() -> None:
     assert cautions == []
     assert "flattens" in resampling_notes(sampled(0.5), 0.02)[1][0]
     assert "sampled as something slower" in resampling_notes(sampled(0.005), 0.02)[1][0]
+
+
+@pytest.mark.parametrize("kind", [1, 2, 3, 4])
+def test_spoilt_bytes_are_read_or_refused(tmp_path: Path, kind: int) -> None:
+    """Whatever stands in the header, the file is read to finite numbers or refused as input."""
+    path, whole = binary(tmp_path, kind)
+    rng = np.random.default_rng(kind)
+    refused = 0
+    for _ in range(300):
+        spoilt = bytearray(whole)
+        for place in rng.integers(0, 300, rng.integers(1, 4)):
+            spoilt[place] = rng.integers(0, 256)
+        path.write_bytes(bytes(spoilt))
+        try:
+            history = from_channels(read_openfast_output(path), DEFAULT)
+        except ow.InputError:
+            refused += 1
+        else:
+            assert np.all(np.isfinite(history.load))
+            assert np.all(np.diff(history.time) > 0)
+    assert 30 < refused < 300

@@ -10,7 +10,7 @@ import numpy as np
 from offwind_pin.errors import InputError
 from offwind_pin.loads.load_units import ANGLE, FORCE, MOMENT
 from offwind_pin.loads.openfast_output import OpenFastOutput
-from offwind_pin.loads.tower_top import COMPONENTS, LoadHistory, check_times
+from offwind_pin.loads.tower_top import COMPONENTS, LARGEST_LOAD, LoadHistory, check_times
 from offwind_pin.turbines.base import Array
 from offwind_pin.turbines.definition import RigidBodyRNA, RotorNacelleRNA
 from offwind_pin.turbines.rna import RigidBody, lump_rna, rotor_apex
@@ -38,13 +38,23 @@ def from_channels(output: OpenFastOutput, channels: Mapping[str, str]) -> LoadHi
 
     Raises
     ------
-    InputError : an unknown channel or unit; times that do not rise, or leave a gap
+    InputError : an unknown channel or unit; times that do not rise, or leave a gap; loads beyond
+        anything a turbine gives
     """
     check_times(output.path, output.time, output.place, output.counted)
     load = np.zeros((len(output.time), 6))
     for i, component in enumerate(COMPONENTS):
         if component in channels:
             load[:, i] = output.channel(channels[component], FORCE if i < 3 else MOMENT)
+    beyond = np.argwhere(np.abs(load) > LARGEST_LOAD)
+    if len(beyond):
+        row, column = beyond[0]
+        raise InputError(
+            f"{output.path}, {output.counted} {output.place[row]}, {COMPONENTS[column]}",
+            float(load[row, column]),
+            f"loads below {LARGEST_LOAD:g} N or N m",
+            "Did the run diverge?",
+        )
     names = " ".join(channels[c] for c in COMPONENTS if c in channels)
     origin = f"{output.path.name} ({names}; SHA-256 {output.digest})"
     return LoadHistory(output.time, load, origin)

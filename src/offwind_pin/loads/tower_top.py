@@ -16,7 +16,8 @@ from offwind_pin.number_files import read_text, to_numbers
 from offwind_pin.turbines.base import Array
 
 COMPONENTS = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
-_LARGEST_LOAD = 1e10
+LARGEST_LOAD = 1e10
+"""N or N m, beyond anything a turbine gives."""
 _GAP = 5.0
 """Times the median step, beyond which rows are missing."""
 _MANY = 20
@@ -137,11 +138,11 @@ def read_load_history(path: Path) -> LoadHistory:
         if not data:
             continue
         row = to_numbers(path, line, re.split(r"[\s,;]+", data), 7)
-        if max(map(abs, row[1:])) > _LARGEST_LOAD:
+        if max(map(abs, row[1:])) > LARGEST_LOAD:
             raise InputError(
                 f"{path}, line {line}",
                 max(row[1:], key=abs),
-                f"loads below {_LARGEST_LOAD:g} N or N m",
+                f"loads below {LARGEST_LOAD:g} N or N m",
                 "Are the units N and N m?",
             )
         rows.append(row)
