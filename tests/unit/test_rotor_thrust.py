@@ -1,6 +1,7 @@
 """Thrust of a running rotor: its curve, its lags, and the damping that it gives."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -364,3 +365,31 @@ def test_loads_far_above_the_top_are_refused(system: ow.System, disc: RotorDisc)
     far = replace(disc, shaft_height=disc.shaft_height + 50)
     with pytest.raises(ow.InputError, match="rotor_thrust"):
         ow.static(system, loads=[RotorThrust(far, constant_wind(BELOW))])
+
+
+def test_a_stopped_run_goes_on_to_the_same_results(
+    system: ow.System, disc: RotorDisc, tmp_path: Path
+) -> None:
+    """The lags' memory is part of the state: resumed after 20 s, the run ends bitwise the same."""
+    wind = ow.RotorWind(9.0, 0.14, seed=3).generate(disc, repeat_period=40.0)
+    thrust = RotorThrust(disc, wind, inflow_lag=True)
+    settings = {"ramp": 5.0, "output_dt": 0.1, "heights": [system.chain.top]}
+
+    def stop(time: float) -> None:
+        if time < 21:
+            raise KeyboardInterrupt
+
+    whole = ow.simulate(system, 40.0, 0.05, [thrust], **settings)  # type: ignore[arg-type]
+    with pytest.raises(ow.InterruptedSimulation):
+        ow.simulate(
+            system,
+            40.0,
+            0.05,
+            [thrust],
+            directory=tmp_path,
+            progress=stop,
+            **settings,  # type: ignore[arg-type]
+        )
+    rest = ow.simulate(system, 40.0, 0.05, [thrust], directory=tmp_path, **settings)  # type: ignore[arg-type]
+    assert np.array_equal(whole["tower_top_displacement"], rest["tower_top_displacement"])
+    assert np.array_equal(whole["mudline_moment"], rest["mudline_moment"])
