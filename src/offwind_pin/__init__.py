@@ -25,9 +25,10 @@ from offwind_pin.campaign.soil_overview import SoilOverview, soil_overview
 from offwind_pin.dynamics.sea import IrregularWaves, StillWater
 from offwind_pin.dynamics.system import System
 from offwind_pin.errors import InputError, InterruptedSimulation, OffwindError, SolverError
-from offwind_pin.loads.rotor_thrust import RotorThrust, thrust_curve
+from offwind_pin.loads.rotor_thrust import RotorThrust
 from offwind_pin.loads.rotor_turbulence import RotorWind
 from offwind_pin.loads.synthetic_wind import SyntheticWind
+from offwind_pin.loads.thrust_table import thrust_curve
 from offwind_pin.loads.tower_top import LoadHistory, read_load_history
 from offwind_pin.solve.steps import AdaptiveStep, FixedStep
 from offwind_pin.turbines.definition import Turbine

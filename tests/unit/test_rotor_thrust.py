@@ -15,14 +15,8 @@ import offwind_pin as ow
 from offwind_pin.analysis.aerodynamic_damping import AerodynamicDamping, aerodynamic_damping
 from offwind_pin.dynamics.compiled_chain import CompiledChain
 from offwind_pin.loads.points import PointMotion
-from offwind_pin.loads.rotor_thrust import (
-    Control,
-    RotorThrust,
-    ThrustTable,
-    induction,
-    inflow_time,
-    thrust_curve,
-)
+from offwind_pin.loads.rotor_thrust import Control, RotorThrust
+from offwind_pin.loads.thrust_table import ThrustTable, induction, inflow_time, thrust_curve
 from offwind_pin.loads.wind_history import WindHistory, constant_wind
 from offwind_pin.turbines.base import Array
 from offwind_pin.turbines.rna import rotor_apex

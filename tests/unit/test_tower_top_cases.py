@@ -18,7 +18,7 @@ from offwind_pin.analysis.aerodynamic_damping import aerodynamic_damping
 from offwind_pin.campaign.case import load_case
 from offwind_pin.campaign.run import run_case
 from offwind_pin.loads.load_files import weight_at_yaw_bearing
-from offwind_pin.loads.rotor_thrust import thrust_curve
+from offwind_pin.loads.thrust_table import thrust_curve
 
 CASE: dict[str, Any] = {
     "name": "top",

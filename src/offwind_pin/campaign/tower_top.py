@@ -36,9 +36,10 @@ from offwind_pin.loads.load_files import (
     weight_at_yaw_bearing,
 )
 from offwind_pin.loads.openfast_output import read_openfast_output
-from offwind_pin.loads.rotor_thrust import RotorThrust, ThrustTable, inflow_time
+from offwind_pin.loads.rotor_thrust import RotorThrust
 from offwind_pin.loads.rotor_turbulence import RotorWind
 from offwind_pin.loads.synthetic_wind import SyntheticWind
+from offwind_pin.loads.thrust_table import ThrustTable, inflow_time
 from offwind_pin.loads.tower_top import LoadHistory, read_load_history
 from offwind_pin.turbines.base import Array
 from offwind_pin.turbines.definition import RotorNacelleRNA, Turbine

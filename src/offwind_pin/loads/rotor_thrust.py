@@ -12,15 +12,20 @@ from functools import cached_property
 from typing import Literal
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 
 from offwind_pin.compiled import kernel
 from offwind_pin.errors import InputError
 from offwind_pin.loads.points import KernelLoad, commit_kernel, force_kernel, tangent_kernel
+from offwind_pin.loads.thrust_table import (
+    ThrustTable,
+    induction,
+    inflow_time,
+    thrust_coefficient,
+    thrust_curve,
+)
 from offwind_pin.loads.wind_history import WindHistory
 from offwind_pin.turbines.base import Array
-from offwind_pin.turbines.definition import Turbine
-from offwind_pin.turbines.rotor_disc import RotorDisc, rotor_disc
+from offwind_pin.turbines.rotor_disc import RotorDisc
 
 Control = Literal["lagged", "instant"]
 
@@ -31,49 +36,13 @@ coefficient is flat, gives J Omega^2 / (3 P), 7.5 s for the shipped IEA 10 MW ro
 rated the reference controllers' pitch loop has 0.6 rad/s (Jonkman et al. 2009, NREL/TP-500-38060,
 chapter 7)."""
 
-_HIGH_THRUST = 0.96
-"""Thrust coefficient at which momentum theory gives an induction of 0.4."""
-
-_COSINE, _SINE, _PRESSURE, _MEAN, _CONTROL_TIME, _INFLOW_TIME, _MEAN_INDUCED, _PIECES = range(8)
-_TABLE = 8
+_COSINE, _SINE, _PRESSURE, _MEAN, _CONTROL_TIME, _INFLOW_TIME, _MEAN_INDUCED, _TABLE = range(8)
 """Columns of the constants: cosine and sine of the shaft's tilt, rho A / 2, mean wind, the two time
-constants, the mean's induced velocity, number of pieces of the table; then its wind speeds, and
-four coefficients of each piece, the cubic one first."""
+constants, the mean's induced velocity; from the last on the numbers of the thrust table."""
 
 _TIME, _WIND, _OPERATING, _DRIVEN, _INDUCED = range(5)
 """Memory, as of the last step: time; relative wind, operating point of the controller, induced
 velocity that the wake heads for, induced velocity: departures from the mean's, in m/s."""
-
-
-@kernel
-def thrust_coefficient(c: Array, wind: float) -> tuple[float, float]:
-    """Of the table at a wind speed, and its slope; both its ends hold beyond."""
-    pieces = int(c[_PIECES])
-    speeds = c[_TABLE : _TABLE + pieces + 1]
-    cubics = c[_TABLE + pieces + 1 :]
-    outside = wind <= speeds[0] or wind >= speeds[pieces]
-    x = min(max(wind, speeds[0]), speeds[pieces])
-    i = 0
-    while i < pieces - 1 and x >= speeds[i + 1]:
-        i += 1
-    t = x - speeds[i]
-    c3, c2, c1, c0 = cubics[4 * i], cubics[4 * i + 1], cubics[4 * i + 2], cubics[4 * i + 3]
-    slope = 0.0 if outside else (3 * c3 * t + 2 * c2) * t + c1
-    return ((c3 * t + c2) * t + c1) * t + c0, slope
-
-
-@kernel
-def induction(coefficient: float) -> tuple[float, float]:
-    """Induction factor of a thrust coefficient, and its slope.
-
-    Ct = 4 a (1 - a) of momentum theory up to 0.96, beyond it Ct = 8/9 - 4 a / 9 + 14 a^2 / 9 (Buhl
-    2005, NREL/TP-500-36834, Eq. 18 without tip loss), which goes on from there without a kink.
-    """
-    if coefficient <= _HIGH_THRUST:
-        root = np.sqrt(1 - coefficient)
-        return (1 - root) / 2, 1 / (4 * root)
-    root = np.sqrt(14 * coefficient - 12)
-    return (2 + 3 * root) / 14, 1.5 / root
 
 
 @kernel
@@ -122,7 +91,7 @@ def _operate(
         past, last, new = lag_weights(step, c[_CONTROL_TIME])
         departure = past * memory[_OPERATING] + last * memory[_WIND] + new * (wind - mean)
         operating, operating_slope = mean + departure, new
-    coefficient, by_wind = thrust_coefficient(c, operating)
+    coefficient, by_wind = thrust_coefficient(c[_TABLE:], operating)
     a, by_coefficient = induction(coefficient)
     a_slope = by_coefficient * by_wind * operating_slope
     driven, driven_slope = a * wind, a + wind * a_slope
@@ -302,52 +271,3 @@ class RotorThrust(KernelLoad):
         through = (1 - a) * mean
         change = local_slope * operating * through**2 + 2 * local * through * (1 - induced)
         return complex(self.disc.rotor.air_density * self.disc.area / 2 * change)
-
-
-class ThrustTable:
-    """A rotor's thrust coefficient over the wind speed: monotone cubics through the table.
-
-    Their slopes do not jump, and between two entries nothing overshoots (Fritsch and Carlson 1980).
-    """
-
-    def __init__(self, disc: RotorDisc) -> None:
-        table = disc.rotor.thrust_coefficient
-        cubics = PchipInterpolator(table.wind_speed, table.value)
-        self.numbers: Array = np.concatenate(
-            [[len(table.wind_speed) - 1], table.wind_speed, cubics.c.T.ravel()]
-        )
-        self._columns = np.concatenate([np.zeros(_TABLE - 1), self.numbers])
-
-    def coefficient(self, wind_speed: float) -> tuple[float, float]:
-        """Thrust coefficient at a wind speed in m/s, and its slope in s/m."""
-        value, slope = thrust_coefficient(self._columns, wind_speed)
-        return float(value), float(slope)
-
-    def induction(self, wind_speed: float) -> tuple[float, float]:
-        """Induction factor at a wind speed in m/s, and its slope by the thrust coefficient."""
-        value, slope = induction(self.coefficient(wind_speed)[0])
-        return float(value), float(slope)
-
-
-def thrust_curve(rotor: Turbine | RotorDisc, wind_speeds: Array) -> Array:
-    """(n,) steady thrust in N at wind speeds in m/s.
-
-    Raises
-    ------
-    InputError : a turbine without a block ``rotor``
-    """
-    disc = rotor_disc(rotor) if isinstance(rotor, Turbine) else rotor
-    table = ThrustTable(disc)
-    speeds = np.asarray(wind_speeds, dtype=float)
-    coefficients = np.array([table.coefficient(speed)[0] for speed in speeds])
-    return disc.rotor.air_density * disc.area / 2 * coefficients * speeds**2
-
-
-def inflow_time(disc: RotorDisc, wind_speed: float) -> float:
-    """Time constant in s with which the induced velocity follows: 1.1 R / ((1 - 1.3 a) U).
-
-    The slow time constant of Oye's model (Snel and Schepers 1995, ECN-C--94-107), a not above 0.5.
-    His second, faster lag is left out.
-    """
-    a = min(ThrustTable(disc).induction(wind_speed)[0], 0.5)
-    return 1.1 * disc.radius / ((1 - 1.3 * a) * wind_speed)
