@@ -39,7 +39,7 @@ def induction(coefficient: float) -> tuple[float, float]:
     """Induction factor of a thrust coefficient, and its slope.
 
     Ct = 4 a (1 - a) of momentum theory up to 0.96, beyond it Ct = 8/9 - 4 a / 9 + 14 a^2 / 9 (Buhl
-    2005, NREL/TP-500-36834, Eq. 18 without tip loss), which goes on from there without a kink.
+    2005, NREL/TP-500-36834, without tip loss), which goes on from there without a kink.
     """
     if coefficient <= _HIGH_THRUST:
         root = np.sqrt(1 - coefficient)
