@@ -11,10 +11,10 @@ import xarray as xr
 import offwind_pin as ow
 from offwind_pin.campaign.case import (
     IrregularSeaState,
-    SyntheticTowerTopLoad,
     TransientAnalysis,
     load_case,
 )
+from offwind_pin.campaign.tower_top_loads import SyntheticTowerTopLoad
 from offwind_pin.turbines.definition import RotorNacelleRNA
 
 NAME = "oc6-lc5.1"

@@ -125,7 +125,7 @@ def part_runs(motion: Motion, sections: Any, every: int) -> dict[str, Callable[[
         "balance": lambda n: _balances(arrays, row, q, v, a, n),
         "solution": lambda n: _solutions(arrays, residual, n),
         "factorisation": lambda n: _factorisations(arrays, row, by_v, by_a, n),
-        "notes": lambda n: _notes(arrays, recorder, q, v, n),
+        "notes": lambda n: _notes(arrays, recorder, row, q, v, n),
         "idle": lambda n: _idle_advance(idle, motion.method, rest, np.zeros((n, 1)), rest[0]),
         "compiled block": lambda n: compiled_steps(motion, sections, every, n),
         "rows of a block": lambda n: numbers(chain, instants, n),
@@ -210,10 +210,10 @@ def _factorisations(s: ChainArrays, row: Array, by_v: float, by_a: float, count:
 
 
 @kernel
-def _notes(s: ChainArrays, r: RecorderArrays, q: Array, v: Array, count: int) -> None:
+def _notes(s: ChainArrays, r: RecorderArrays, row: Array, q: Array, v: Array, count: int) -> None:
     for _ in range(count):
         r.tally[1] = 0
-        take_note(s, r, 1.0, q, v, 1, 1.0)
+        take_note(s, r, row, q, v, 1, 1.0)
 
 
 class Idle(NamedTuple):

@@ -23,11 +23,11 @@ import offwind_pin as ow
 from offwind_pin.campaign.case import (
     Case,
     IrregularSeaState,
-    SyntheticTowerTopLoad,
     TransientAnalysis,
     load_case,
 )
 from offwind_pin.campaign.summaries import BANDS_HZ, moment_spectrum
+from offwind_pin.campaign.tower_top_loads import SyntheticTowerTopLoad
 from offwind_pin.display.style import (
     BLUE,
     FULL_WIDTH,

@@ -7,6 +7,7 @@
 ['SS1', 'FA1']
 """
 
+from offwind_pin.analysis.aerodynamic_damping import aerodynamic_damping
 from offwind_pin.analysis.build import build
 from offwind_pin.analysis.condensation import Condensation, condense
 from offwind_pin.analysis.equivalent_damping import equivalent_damping
@@ -25,13 +26,17 @@ from offwind_pin.dynamics.sea import IrregularWaves, StillWater
 from offwind_pin.dynamics.system import System
 from offwind_pin.dynamics.wind_loads import tower_drag
 from offwind_pin.errors import InputError, InterruptedSimulation, OffwindError, SolverError
+from offwind_pin.loads.rotor_thrust import RotorThrust
+from offwind_pin.loads.rotor_turbulence import RotorWind
 from offwind_pin.loads.synthetic_wind import SyntheticWind
+from offwind_pin.loads.thrust_table import thrust_curve
 from offwind_pin.loads.tower_drag import TowerWind
 from offwind_pin.loads.tower_top import LoadHistory, read_load_history
 from offwind_pin.loads.wind_profile import ExtremeOperatingGust, LogLaw, PowerLaw, WindSeries
 from offwind_pin.solve.steps import AdaptiveStep, FixedStep
 from offwind_pin.turbines.definition import Turbine
 from offwind_pin.turbines.reader import load_turbine, shipped_turbines
+from offwind_pin.turbines.rotor_disc import rotor_disc
 
 __all__ = [
     "AdaptiveStep",
@@ -52,6 +57,8 @@ __all__ = [
     "Parameter",
     "PowerLaw",
     "Pushover",
+    "RotorThrust",
+    "RotorWind",
     "SciPyIVP",
     "ShapeTarget",
     "SoilOverview",
@@ -63,6 +70,7 @@ __all__ = [
     "TowerWind",
     "Turbine",
     "WindSeries",
+    "aerodynamic_damping",
     "build",
     "condense",
     "equivalent_damping",
@@ -73,10 +81,12 @@ __all__ = [
     "pile_only",
     "pushover",
     "read_load_history",
+    "rotor_disc",
     "shipped_turbines",
     "simulate",
     "soil_overview",
     "static",
+    "thrust_curve",
     "tower_drag",
     "write_soil",
 ]

@@ -11,7 +11,7 @@ import pytest
 import yaml
 
 import offwind_pin as ow
-from offwind_pin.campaign.case import load_case
+from offwind_pin.campaign.case import Case, load_case
 from offwind_pin.campaign.run import run_case
 from offwind_pin.loads.ground import Ground
 from offwind_pin.loads.shaft_curves import toe_bearing_curve, torsional_curves, vertical_curves
@@ -84,7 +84,7 @@ def test_layers_of_the_docs(written: Path) -> None:
     """The layered springs take the place of the tanh springs; every reaction that they name is there."""
     path = written / "my_turbine.yaml"
     data = yaml.safe_load(path.read_text())
-    data["soil"] |= yaml.safe_load(_blocks("docs/turbine_file.md", "yaml")[1])
+    data["soil"] |= yaml.safe_load(_blocks("docs/turbine_file.md", "yaml")[2])
     path.write_text(yaml.safe_dump(data))
     springs = ow.load_turbine(path).soil.distributed_springs
     assert springs is not None
@@ -130,6 +130,45 @@ def test_case_of_the_docs(written: Path) -> None:
     assert summary["status"] == "complete"
     assert summary["mudline_moment_y_mean_Nm"] > 4e7
     assert "my_load.txt" in (written / "out" / "report.html").read_text()
+
+
+def test_rotor_of_the_docs(written: Path) -> None:
+    """The rotor's block fits a turbine whose rotor and nacelle are one rigid body."""
+    path = written / "my_turbine.yaml"
+    data = yaml.safe_load(path.read_text())
+    data |= yaml.safe_load(_blocks("docs/turbine_file.md", "yaml")[1])
+    assert data["rna"]["kind"] == "rigid_body"
+    path.write_text(yaml.safe_dump(data))
+    thrust = ow.thrust_curve(ow.load_turbine(path), np.array([9.0]))
+    assert thrust[0] == pytest.approx(0.5 * 1.225 * np.pi * 63**2 * 0.8 * 81, rel=1e-9)
+
+
+def test_tower_top_loads_of_the_docs(written: Path) -> None:
+    """Every load that the page shows fits the case; the rotor's runs."""
+    base = yaml.safe_load((written / "my_case.yaml").read_text())
+    loads = [yaml.safe_load(block) for block in _blocks("docs/case_file.md", "yaml")[1:]]
+    kinds = []
+    for load in loads:
+        case = Case.model_validate(base | load)
+        assert case.tower_top_load is not None
+        kinds.append(case.tower_top_load.kind)
+    assert kinds == ["file", "openfast_output", "openfast_output", "file", "rotor"]
+    short = {"duration_s": 30.0, "ramp_s": 5.0, "dt_s": 0.05, "output_dt_s": 0.1}
+    analysis = base["analysis"] | short | {"psd_segment_s": 10.0}
+    change = {"turbine": "oc3_phase2", "foundation": "clamped", "sea": {"kind": "still_water"}}
+    case = Case.model_validate(base | loads[-1] | change | {"analysis": analysis})
+    summary = run_case(case, written, written / "out")
+    assert summary["mean_thrust_N"] == pytest.approx(485.2e3, rel=0.01)
+    assert {row["label"]: row["ratio"] for row in summary["aerodynamic_damping"]}["FA1"] > 0.03
+
+
+def test_rotor_in_python(capsys: Any) -> None:
+    """The lines of the case file's page print what they say."""
+    block = _blocks("docs/case_file.md", "python")[0]
+    exec(block, {})  # our own text
+    curve, damping = capsys.readouterr().out.strip().splitlines()
+    assert f"# {curve} MN" in block
+    assert f"# {damping}" in block
 
 
 def test_links_lead_somewhere() -> None:

@@ -202,7 +202,7 @@ def test_other_directions_slide_alike(direction: Direction) -> None:
         expected = lateral.forces(0.0, at(size), 1.0, reference).force[0, 0]
         assert force[0, direction.force] == pytest.approx(expected, rel=1e-12)
         assert np.count_nonzero(force) == 1
-        heat = load.commit_kernel(columns, load.constants, memory)
+        heat = load.commit_kernel(columns, load.constants, np.zeros(0), memory)
         assert heat == pytest.approx(lateral.commit(at(size), reference), rel=1e-12, abs=1e-12)
 
 

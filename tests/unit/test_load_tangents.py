@@ -24,15 +24,18 @@ from offwind_pin.loads.morison import MorisonForce
 from offwind_pin.loads.pile_soil import pile_nodes
 from offwind_pin.loads.points import KernelLoad, PointMotion, PointTangents, nothing_stored
 from offwind_pin.loads.python_load import PythonLoad
+from offwind_pin.loads.rotor_thrust import Control, RotorThrust
 from offwind_pin.loads.soil import LATERAL, ROCKING, TORSIONAL, VERTICAL, Direction, SoilSprings
 from offwind_pin.loads.soil_curves import soil_curves, tanh_curves
 from offwind_pin.loads.strips import Strips, strips_up_to
 from offwind_pin.loads.tower_drag import TowerDrag, TowerWind
 from offwind_pin.loads.tower_top import TowerTopLoad
+from offwind_pin.loads.wind_history import WindHistory
 from offwind_pin.loads.wind_profile import ExtremeOperatingGust, PowerLaw
 from offwind_pin.turbines.base import Array
 from offwind_pin.turbines.depth_profile import DepthLine
 from offwind_pin.turbines.hydrodynamics import FloodedPile
+from offwind_pin.turbines.rotor_disc import rotor_disc
 from offwind_pin.turbines.soil import CurveTable, LinearModulus
 
 TIME, RISE = 2.3, 0.7
@@ -158,6 +161,16 @@ def tower_top(oc6: ow.Turbine, folder: Path) -> TowerTopLoad:
     return TowerTopLoad(oc6.yaw_bearing, history, history.at(0.0))
 
 
+def running_rotor(mean: float, control: Control, *, inflow_lag: bool = False) -> Maker:
+    """A rotor in a wind that differs from its mean."""
+
+    def make(oc6: ow.Turbine, folder: Path) -> RotorThrust:
+        wind = WindHistory(4.0, np.array([0.97, 1.06]) * mean, mean, "test")
+        return RotorThrust(rotor_disc(oc6), wind, control, inflow_lag=inflow_lag)
+
+    return make
+
+
 def written_in_python(oc6: ow.Turbine, folder: Path) -> PythonLoad:
     return PythonLoad(EveryKind(np.linspace(oc6.site.mudline, oc6.yaw_bearing, 4)))
 
@@ -186,6 +199,13 @@ EXAMPLES: dict[type[KernelLoad], dict[str, Maker]] = {
     SplashAddedMass: {"splash added mass": splash_added_mass},
     Buoyancy: {"buoyancy": buoyancy, "pressure inside": pressure_inside},
     TowerTopLoad: {"tower top": tower_top},
+    RotorThrust: {
+        "rotor below rated": running_rotor(8.4, "lagged"),
+        "rotor above rated": running_rotor(12.6, "lagged"),
+        "rotor with an instant controller": running_rotor(12.6, "instant"),
+        "rotor in a wake that lags": running_rotor(8.4, "lagged", inflow_lag=True),
+        "rotor beyond its table": running_rotor(24.9, "instant"),
+    },
     PythonLoad: {"written in Python": written_in_python},
 }
 """Every compiled load there is, with examples that reach each of its branches."""
@@ -303,6 +323,8 @@ def depends_on(name: str) -> set[str]:
     """Blocks of a load that must not be zero."""
     if name in ("soil rocking", "soil torsional") or (" in " in name and "sliding" in name):
         return {"moment_stiffness", "moment_damping"}
+    if name.startswith("rotor"):
+        return {"damping", "turning"}
     if name.startswith("soil"):
         return {"stiffness"} if name.endswith("elastic") else {"stiffness", "damping"}
     return {
@@ -457,7 +479,8 @@ def test_other_loads_store_nothing(oc6: ow.Turbine, tmp_path: Path) -> None:
     """Waves, the load at the top and what is written in Python work; they hold no energy."""
     others = set(LOADS) - set(STORING)
     sliding = {name for name in others if "sliding" in name}
-    assert others - sliding == {
+    rotors = {name for name in others if name.startswith("rotor")}
+    assert others - sliding - rotors == {
         "waves",
         "still water",
         "splashing",

@@ -95,6 +95,7 @@ def full(coarse: ow.System) -> CaseReport:
             Published("damage", 1.0, "", "a paper"),
         ),
         wind=WindDescription(wind, rotor),
+        rotor=(("mean thrust", "1.1 MN"),),
         psd=psd,
     )
 
@@ -166,6 +167,7 @@ class TestContents:
             ("statics", {}, {"statics"}),
             ("psd", None, {"psd"}),
             ("wind", None, {"wind"}),
+            ("rotor", (), {"rotor"}),
             ("published", (), {"published"}),
             ("histories", None, {"histories", "envelope"}),
         ],

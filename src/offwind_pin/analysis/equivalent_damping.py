@@ -85,7 +85,8 @@ def _cycle(spring: SoilSprings, amplitude: float, rate: float) -> tuple[float, f
     """
     memory = np.zeros(spring.memory_size)
     for share in np.linspace(0.0, 1.0, _STEPS // 4 + 1):
-        spring.commit_kernel(_motion(spring, share * amplitude, 0.0), spring.constants, memory)
+        motion = _motion(spring, share * amplitude, 0.0)
+        spring.commit_kernel(motion, spring.constants, np.zeros(0), memory)
     peak = _force(spring, _motion(spring, amplitude, 0.0), memory)
     phase = 2 * np.pi * np.arange(1, _STEPS + 1) / _STEPS
     power = np.empty(_STEPS)
@@ -93,7 +94,7 @@ def _cycle(spring: SoilSprings, amplitude: float, rate: float) -> tuple[float, f
         speed = -rate * amplitude * np.sin(angle)
         motion = _motion(spring, amplitude * np.cos(angle), speed)
         power[k] = _force(spring, motion, memory) * speed
-        spring.commit_kernel(motion, spring.constants, memory)
+        spring.commit_kernel(motion, spring.constants, np.zeros(0), memory)
     # equal weights are the trapezoidal rule: the speed vanishes at both ends
     return float(np.sum(power) * 2 * np.pi / rate / _STEPS), peak / amplitude
 

@@ -137,7 +137,7 @@ def static(
             joint=joint,
             residual=float(np.max(np.abs(result.residual))),
         )
-    chain.commit(result.x)
+    chain.commit(row, result.x)
     state = chain.record(chain.sections(system.chain.boundary), row, result.x, rest, rest)
     return StaticResult(
         q=result.x,

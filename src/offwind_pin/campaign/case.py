@@ -9,6 +9,7 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, Field, model_validator
 
 from offwind_pin.analysis.foundations import FOUNDATIONS
+from offwind_pin.campaign.tower_top_loads import TowerTopLoadChoice
 from offwind_pin.structure.chain import MOST_ELEMENTS, Element
 from offwind_pin.turbines.base import Definition, NonNegative, Number, Positive
 from offwind_pin.turbines.reader import find_definition, read_model
@@ -45,24 +46,6 @@ class IrregularSeaState(Definition):
     kind: Literal["irregular_waves"]
     significant_height: Annotated[Positive, Field(le=30)] = Field(alias="significant_height_m")
     peak_period: Annotated[Positive, Field(ge=1, le=30)] = Field(alias="peak_period_s")
-
-
-class SyntheticTowerTopLoad(Definition):
-    """The package's own generator; see :class:`SyntheticWind`."""
-
-    kind: Literal["synthetic"]
-    wind_speed: Annotated[Positive, Field(ge=1, le=25)] = Field(alias="wind_speed_m_per_s")
-    blade_passing_frequency: Annotated[Positive, Field(le=5)] = Field(
-        alias="blade_passing_frequency_hz"
-    )
-    turbulence_intensity: Annotated[NonNegative, Field(le=1)] = 0.10
-
-
-class TowerTopLoadFile(Definition):
-    """Seven columns t, Fx, Fy, Fz, Mx, My, Mz; a relative path starts at the case file."""
-
-    kind: Literal["file"]
-    file: Path
 
 
 class StaticAnalysis(Definition):
@@ -130,9 +113,7 @@ class Case(Definition):
     turbine: str
     foundation: FoundationName
     sea: Annotated[DrySea | StillSea | IrregularSeaState, Field(discriminator="kind")]
-    tower_top_load: (
-        Annotated[SyntheticTowerTopLoad | TowerTopLoadFile, Field(discriminator="kind")] | None
-    ) = None
+    tower_top_load: TowerTopLoadChoice | None = None
     analysis: Annotated[
         StaticAnalysis | ModalAnalysis | TransientAnalysis, Field(discriminator="kind")
     ]

@@ -20,7 +20,6 @@ from offwind_pin.campaign.case import (
     IrregularSeaState,
     ModalAnalysis,
     StaticAnalysis,
-    SyntheticTowerTopLoad,
     TransientAnalysis,
 )
 from offwind_pin.campaign.output import check_writable
@@ -31,6 +30,8 @@ from offwind_pin.campaign.summaries import (
     summarise_spectrum,
     summarise_static,
 )
+from offwind_pin.campaign.tower_top import generator, rotor_of, tower_top
+from offwind_pin.campaign.tower_top_loads import SyntheticTowerTopLoad
 from offwind_pin.display.report import (
     CaseReport,
     MomentSpectrum,
@@ -40,15 +41,14 @@ from offwind_pin.display.report import (
 )
 from offwind_pin.dynamics.sea import IrregularWaves, Sea, StillWater
 from offwind_pin.dynamics.system import System
-from offwind_pin.errors import InputError, InterruptedSimulation, SolverError
-from offwind_pin.loads.synthetic_wind import SyntheticWind, operate_rotor
-from offwind_pin.loads.tower_top import LoadHistory, read_load_history
+from offwind_pin.errors import InterruptedSimulation, SolverError
+from offwind_pin.loads.synthetic_wind import operate_rotor
 from offwind_pin.results.blocks import time_reached
 from offwind_pin.results.dataset import versions
 from offwind_pin.results.files import write_json, write_netcdf
 from offwind_pin.results.states import modal_dataset, static_dataset
 from offwind_pin.structure.urdf import definition_hash
-from offwind_pin.turbines.definition import RotorNacelleRNA, Turbine
+from offwind_pin.turbines.definition import Turbine
 from offwind_pin.turbines.reader import load_turbine
 
 Progress = Callable[[float, float], None]
@@ -64,6 +64,7 @@ class CaseResult:
     modes: ModalResult | None = None
     statics: dict[str, StaticResult] = field(default_factory=dict)
     spectrum: MomentSpectrum | None = None
+    rotor: tuple[tuple[str, str], ...] = ()
 
 
 def run_case(
@@ -163,23 +164,22 @@ def _solve_transient(
     progress: Progress | None,
 ) -> CaseResult:
     system = _build(case, turbine, case.foundation, analysis.duration)
-    history = _tower_top_history(case, turbine, analysis, folder)
-    loads = [] if history is None else [history]
+    top = tower_top(case, turbine, analysis, folder)
     data = simulate(
         system,
         analysis.duration,
         analysis.dt,
-        loads,
+        top.loads,
         ramp=analysis.ramp,
         output_dt=analysis.output_dt,
         directory=out,
-        provenance={"case": case.name, "seed": case.seed},
+        provenance={"case": case.name, "seed": case.seed, **top.provenance},
         progress=None if progress is None else lambda now: progress(now, analysis.duration),
     )
-    mean = None if history is None else history.mean(analysis.ramp, analysis.duration)
-    state = static(system, mean)
+    state = static(system, top.mean)
     result = modes(system, min(8, system.nv), state)
-    spectrum = moment_spectrum(data, analysis.psd_segment, _marked(case, result))
+    marked = _marked(case, result, top.blade_passing_frequency)
+    spectrum = moment_spectrum(data, analysis.psd_segment, marked)
     summary = summarise_spectrum(data, spectrum)
     summary |= {
         "simulated_s": analysis.duration,
@@ -194,8 +194,9 @@ def _solve_transient(
         "steps": round(analysis.duration / analysis.dt),
         "mean_iterations": float(data["solver_iterations"][1:].mean()),
         "largest_residual": float(data["solver_residual"].max()),
+        **top.summary(system, result, state),
     }
-    return CaseResult(summary, data, system, result, {case.foundation: state}, spectrum)
+    return CaseResult(summary, data, system, result, {case.foundation: state}, spectrum, top.facts)
 
 
 def _frequencies(result: ModalResult) -> dict[str, float]:
@@ -227,37 +228,7 @@ def _sea(case: Case, duration: float) -> Sea | None:
     return StillWater()
 
 
-def _tower_top_history(
-    case: Case, turbine: Turbine, analysis: TransientAnalysis, folder: Path
-) -> LoadHistory | None:
-    load = case.tower_top_load
-    if load is None:
-        return None
-    if not isinstance(load, SyntheticTowerTopLoad):
-        return read_load_history(folder / load.file)
-    return _generator(case, load).generate(
-        _rotor(turbine), duration=analysis.duration, repeat_period=analysis.duration - analysis.ramp
-    )
-
-
-def _generator(case: Case, load: SyntheticTowerTopLoad) -> SyntheticWind:
-    return SyntheticWind(
-        load.wind_speed, load.blade_passing_frequency, load.turbulence_intensity, seed=case.seed
-    )
-
-
-def _rotor(turbine: Turbine) -> RotorNacelleRNA:
-    if not isinstance(turbine.rna, RotorNacelleRNA):
-        raise InputError(
-            f"turbine {turbine.name}, field rna.kind",
-            turbine.rna.kind,
-            "rotor_nacelle, whose rotor the synthetic wind needs",
-            "Give rotor and nacelle inputs, or a tower-top load file.",
-        )
-    return turbine.rna
-
-
-def _marked(case: Case, result: ModalResult) -> dict[str, float]:
+def _marked(case: Case, result: ModalResult, passing: float | None) -> dict[str, float]:
     """Frequencies in Hz that a reader looks for in the spectrum, by name."""
     marked = {}
     if isinstance(case.sea, IrregularSeaState):
@@ -265,9 +236,9 @@ def _marked(case: Case, result: ModalResult) -> dict[str, float]:
     for label in ("FA1", "FA2"):
         if label in result.label:
             marked[label] = float(result.frequency_hz[result.index(label)])
-    if isinstance(case.tower_top_load, SyntheticTowerTopLoad):
+    if passing is not None:
         for order in (1, 2, 3):
-            marked[f"{3 * order}P"] = order * case.tower_top_load.blade_passing_frequency
+            marked[f"{3 * order}P"] = order * passing
     return marked
 
 
@@ -324,6 +295,7 @@ def _write(case: Case, turbine: Turbine, out: Path, result: CaseResult) -> None:
         ),
         wind=_wind_report(case, turbine),
         psd=result.spectrum,
+        rotor=result.rotor,
     )
     # The summary is written last, so that where it stands the other files belong to it.
     (out / "summary.json").unlink(missing_ok=True)
@@ -337,8 +309,8 @@ def _wind_report(case: Case, turbine: Turbine) -> WindDescription | None:
     load = case.tower_top_load
     if not isinstance(load, SyntheticTowerTopLoad):
         return None
-    rotor = operate_rotor(_rotor(turbine), load.wind_speed, load.blade_passing_frequency)
-    return WindDescription(_generator(case, load), rotor)
+    rotor = operate_rotor(rotor_of(turbine), load.wind_speed, load.blade_passing_frequency)
+    return WindDescription(generator(case, load), rotor)
 
 
 def _write_partial(

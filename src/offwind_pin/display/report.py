@@ -34,6 +34,7 @@ SECTIONS = {
     "modes": "Natural modes",
     "statics": "Static equilibrium",
     "wind": "The synthetic wind",
+    "rotor": "The running rotor",
     "histories": "Time histories",
     "psd": "Spectrum of the mudline moment",
     "envelope": "Section loads over height",
@@ -155,6 +156,7 @@ class CaseReport:
     published : numbers to compare with
     wind : how the tower-top load was made, where it is synthetic
     psd : of the fore-aft moment at the mudline
+    rotor : name and value of what is to be told of a rotor that runs, or nothing
     """
 
     name: str
@@ -168,6 +170,7 @@ class CaseReport:
     published: tuple[Published, ...] = ()
     wind: WindDescription | None = None
     psd: MomentSpectrum | None = None
+    rotor: tuple[tuple[str, str], ...] = ()
 
     @property
     def analysed(self) -> xr.Dataset | None:
@@ -211,6 +214,8 @@ def _tables(report: CaseReport) -> dict[str, Any]:
         "statics": tables.ordered_statics(report),
         "increases": headline.static_increases(report),
         "wind": tables.wind_facts(report.wind),
+        "rotor": list(report.rotor),
+        "rotor_damping": report.summary.get("aerodynamic_damping", []),
         "histories": report.histories is not None,
         "statistics": tables.statistics(report),
         "psd": report.psd,

@@ -54,12 +54,13 @@ def evaluate_loads(s: ChainArrays, row: Array) -> None:
 
 
 @kernel
-def commit(s: ChainArrays, q: Array) -> None:
+def commit(s: ChainArrays, row: Array, q: Array) -> None:
     """End a step: what loads and root keep of their past becomes that of the state evaluated."""
     for i in range(s.loads):
         points = slice(s.first_point[i], s.first_point[i + 1])
         past = s.memory[s.first_memory[i] : s.first_memory[i + 1]]
-        s.heat[i] = s.commits[i](s.motion[points], s.constants[i], past)
+        numbers = row[s.first_number[i] : s.first_number[i + 1]]
+        s.heat[i] = s.commits[i](s.motion[points], s.constants[i], numbers, past)
     if s.roots > 0:
         past = s.memory[s.first_memory[s.loads] :]
         s.heat[s.loads] = s.restraint_commit[0](q[:6], s.restraint_numbers, past)

@@ -95,10 +95,10 @@ class CompiledChain:
     def memory(self, past: Array) -> None:
         self.arrays.memory[:] = past
 
-    def commit(self, q: Array) -> None:
+    def commit(self, row: Array, q: Array) -> None:
         """End a step at the state last evaluated."""
         with self.running():
-            commit(self.arrays, q)
+            commit(self.arrays, row, q)
 
     def unstable_directions(self) -> int:
         """Number of motions away from the factorised static state that need no work."""
@@ -138,7 +138,7 @@ class CompiledChain:
         """Let a recorder take note of a state; the residual is over a scale."""
         with self.running():
             size = float(np.max(np.abs(balance(self.arrays, row, q, v, a)))) / scale
-            take_note(self.arrays, recorder, row[0], q, v, 0, size)
+            take_note(self.arrays, recorder, row, q, v, 0, size)
 
     def equations(self) -> Equations:
         """The same equations of motion by Pinocchio."""
@@ -193,6 +193,6 @@ def _correction(system: Any, r: Any) -> Any:
 @overload(generalized_alpha.observe)
 def _observe(system: Any, row: Any, state: Any, iterations: Any, size: Any) -> Any:
     def of_run(system: Any, row: Any, state: Any, iterations: Any, size: Any) -> Any:
-        take_note(system.chain, system.recorder, row[0], state[0], state[1], iterations, size)
+        take_note(system.chain, system.recorder, row, state[0], state[1], iterations, size)
 
     return of_run if _is_run(system) else None

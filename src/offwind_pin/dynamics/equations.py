@@ -33,6 +33,9 @@ from offwind_pin.loads.points import (
 )
 from offwind_pin.turbines.base import Array
 
+_REACH = 20.0
+"""m above the yaw bearing up to which the last body carries loads; shafts cross the axis below."""
+
 
 @dataclass(frozen=True, eq=False)
 class Evaluation:
@@ -207,13 +210,14 @@ def all_loads(system: System, loads: Sequence[PointLoad]) -> list[PointLoad]:
     water = [] if system.sea is None else water_loads(system.turbine, system.sea)
     everything: list[PointLoad] = [*water, *system.foundation.soil, *loads]
     for load in everything:
-        outside = (load.height < system.chain.base) | (load.height > system.chain.top)
+        highest = system.chain.top + _REACH
+        outside = (load.height < system.chain.base) | (load.height > highest)
         if np.any(outside):
             raise InputError(
                 f"load {load.name!r}, height",
                 float(load.height[outside][0]),
-                f"{system.chain.base} to {system.chain.top} m",
-                "Loads act on the axis of the structure.",
+                f"{system.chain.base} to {highest} m",
+                "Loads act on the axis of the structure, or of the nacelle above it.",
             )
     return everything
 

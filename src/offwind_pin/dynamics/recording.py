@@ -30,7 +30,7 @@ from offwind_pin.turbines.base import Array
 def take_note(
     s: ChainArrays,
     r: RecorderArrays,
-    time: float,
+    row: Array,
     q: Array,
     v: Array,
     iterations: int,
@@ -38,7 +38,8 @@ def take_note(
 ) -> None:
     """End a step: keep its past, sum energies up to it, and write a record where one is due."""
     if len(s.memory) > 0:
-        commit(s, q)
+        commit(s, row, q)
+    time = row[0]
     add_energies(s, r, v, time - r.clock[0])
     r.clock[0] = time
     r.tally[0] += 1

@@ -115,7 +115,7 @@ def _energy(motion: Array, constants: Array, memory: Array) -> float:
 
 
 @commit_kernel
-def _commit(motion: Array, constants: Array, memory: Array) -> float:
+def _commit(motion: Array, constants: Array, row: Array, memory: Array) -> float:
     heat, first = 0.0, 0
     for i in range(len(motion)):
         c = constants[i]

@@ -46,11 +46,11 @@ velocity, acceleration and axis, and of the moment by position, turn and spin.
 energy_kernel = exchangeable(types.float64(_MATRIX, _MATRIX, _ROW))
 """Decorator for ``kernel(motion, constants, memory) -> energy``, that the load stores, in J."""
 
-commit_kernel = exchangeable(types.float64(_MATRIX, _MATRIX, _ROW))
-"""Decorator for ``kernel(motion, constants, memory) -> heat``.
+commit_kernel = exchangeable(types.float64(_MATRIX, _MATRIX, _ROW, _ROW))
+"""Decorator for ``kernel(motion, constants, row, memory) -> heat``.
 
-It ends a step: the memory becomes that of the motion, and what that turned into heat is returned
-in J.
+It ends a step: the memory becomes that of the motion and of the row at the step's end, and what
+that turned into heat is returned in J.
 """
 
 
@@ -61,7 +61,7 @@ def nothing_stored(motion: Array, constants: Array, memory: Array) -> float:
 
 
 @commit_kernel
-def nothing_kept(motion: Array, constants: Array, memory: Array) -> float:
+def nothing_kept(motion: Array, constants: Array, row: Array, memory: Array) -> float:
     """Of a load without memory."""
     return 0.0
 
@@ -226,9 +226,12 @@ class KernelLoad(ABC):
         """Energy stored in J."""
         return float(self.energy_kernel(motion.columns(), self.constants, self._past(memory)))
 
-    def commit(self, motion: PointMotion, memory: Array) -> float:
-        """End a step: change the memory (m,) to that of a motion; heat made in J."""
-        return float(self.commit_kernel(motion.columns(), self.constants, memory))
+    def commit(
+        self, motion: PointMotion, memory: Array, time: float = 0.0, rise: float = 1.0
+    ) -> float:
+        """End a step: change the memory (m,) to that of a motion at a time; heat made in J."""
+        row = self._row(time, rise)
+        return float(self.commit_kernel(motion.columns(), self.constants, row, memory))
 
     def _row(self, time: float, rise: float) -> Array:
         return np.ascontiguousarray(self.rows(np.array([time]), np.array([rise]))[0])

@@ -1,6 +1,8 @@
 """A synthetic tower-top load for a parked-pitch, below-rated wind, where no load file is to hand.
 
-It is a surrogate and says so: mean thrust and torque from momentum theory at the rotor's own speed,
+It stands in for a prescribed history, so that it feels no motion and keeps the benchmark's own
+blade-passing frequency; a wind derived for a running rotor is in ``rotor_turbulence``. It is a
+surrogate and says so: mean thrust and torque from momentum theory at the rotor's own speed,
 turbulence through the rotor's averaging, and the blade-passing harmonics that rotational sampling
 of shear, tower and turbulence gives.
 """

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -15,7 +16,12 @@ from offwind_pin.number_files import read_text, to_numbers
 from offwind_pin.turbines.base import Array
 
 COMPONENTS = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
-_LARGEST_LOAD = 1e10
+LARGEST_LOAD = 1e10
+"""N or N m, beyond anything a turbine gives."""
+_GAP = 5.0
+"""Times the median step, beyond which rows are missing."""
+_MANY = 20
+"""Steps from which on a file is sampled, and not a table of corners written by hand."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,35 +127,64 @@ def read_load_history(path: Path) -> LoadHistory:
 
     Raises
     ------
-    InputError : missing, empty or truncated file; a cell that is no number; times that do not rise;
-        loads beyond anything a turbine gives
+    InputError : missing, empty or truncated file; a cell that is no number; times that do not rise,
+        or leave a gap; loads beyond anything a turbine gives
     """
     text = read_text(path)
     rows: list[tuple[float, ...]] = []
+    lines = []
     for line, raw in enumerate(text.splitlines(), 1):
         data = re.split(r"[#!%]", raw, maxsplit=1)[0].strip()
         if not data:
             continue
         row = to_numbers(path, line, re.split(r"[\s,;]+", data), 7)
-        if rows and row[0] <= rows[-1][0]:
-            raise InputError(
-                f"{path}, line {line}, column t",
-                row[0],
-                f"a time later than that of the row before ({rows[-1][0]} s)",
-                "Sort the rows by time and remove repeated ones.",
-            )
-        if max(map(abs, row[1:])) > _LARGEST_LOAD:
+        if max(map(abs, row[1:])) > LARGEST_LOAD:
             raise InputError(
                 f"{path}, line {line}",
                 max(row[1:], key=abs),
-                f"loads below {_LARGEST_LOAD:g} N or N m",
+                f"loads below {LARGEST_LOAD:g} N or N m",
                 "Are the units N and N m?",
             )
         rows.append(row)
+        lines.append(line)
     if len(rows) < 2:
         raise InputError(
             str(path), f"{len(rows)} rows", "two rows or more", "Is the file complete?"
         )
     values = np.array(rows)
+    check_times(path, values[:, 0], lines, "line")
     digest = hashlib.sha256(text.encode()).hexdigest()
     return LoadHistory(values[:, 0], values[:, 1:], origin=f"{path.name} (SHA-256 {digest})")
+
+
+def check_times(path: Path, time: Array, place: Sequence[int], counted: str) -> None:
+    """Refuse times (t,) that do not rise, or that leave a gap in evenly sampled ones.
+
+    place : (t,) where they stand in the file, in what ``counted`` names
+
+    Raises
+    ------
+    InputError : with the place of the first fault
+    """
+    step = np.diff(time)
+    back = np.flatnonzero(~(step > 0))
+    if len(back):
+        i = int(back[0])
+        raise InputError(
+            f"{path}, {counted} {place[i + 1]}, column t",
+            float(time[i + 1]),
+            f"a time later than that of {counted} {place[i]} ({time[i]:g} s)",
+            "Sort the rows by time and remove repeated ones.",
+        )
+    if len(step) < _MANY:
+        return
+    usual = float(np.median(step))
+    gaps = np.flatnonzero(step > _GAP * usual)
+    if len(gaps):
+        i = int(gaps[0])
+        raise InputError(
+            f"{path}, {counted}s {place[i]} to {place[i + 1]}, column t",
+            f"a step of {step[i]:g} s ({len(gaps)} such)",
+            f"steps of about {usual:g} s, as elsewhere in the file",
+            "Are rows missing? Fill the gap, or shorten the file.",
+        )

@@ -14,6 +14,7 @@ from pydantic import Field, model_validator
 
 from offwind_pin.turbines.base import Definition, NonNegative, Number, Positive, Vector3
 from offwind_pin.turbines.hydrodynamics import Height, Hydrodynamics
+from offwind_pin.turbines.rotor_aerodynamics import GEOMETRY, Rotor
 from offwind_pin.turbines.soil import Soil
 
 Angle = Annotated[Number, Field(ge=-30, le=30)]
@@ -227,6 +228,7 @@ class Turbine(Definition):
     members: Annotated[tuple[Member, ...], Field(min_length=1)]
     point_masses: tuple[PointMass, ...] = ()
     rna: Annotated[RigidBodyRNA | RotorNacelleRNA, Field(discriminator="kind")]
+    rotor: Rotor | None = None
     hydrodynamics: Hydrodynamics
     soil: Soil
     structural_damping: DampingCalibration | None = None
@@ -268,6 +270,25 @@ class Turbine(Definition):
                     f"from {self.toe} to {self.yaw_bearing} m"
                 )
         self.hydrodynamics.check_fits(self.site.mudline, self.yaw_bearing)
+        return self
+
+    @model_validator(mode="after")
+    def _rotor_is_placed(self) -> Turbine:
+        if self.rotor is None:
+            return self
+        given = [name for name in GEOMETRY if getattr(self.rotor, name) is not None]
+        if isinstance(self.rna, RigidBodyRNA):
+            keys = {name: Rotor.model_fields[name].alias or name for name in GEOMETRY}
+            missing = [keys[name] for name in GEOMETRY if name not in given]
+            if missing:
+                raise ValueError(
+                    f"rotor lacks {', '.join(missing)}, which an rna of kind rigid_body does not "
+                    "tell; add them"
+                )
+        elif given not in ([], ["radius"]):
+            raise ValueError(
+                f"rotor gives {', '.join(given)}, which rna gives already; keep radius_m at most"
+            )
         return self
 
     @property
