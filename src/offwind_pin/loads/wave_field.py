@@ -43,8 +43,8 @@ class WaveField(ABC):
     def velocity(self, height: Array) -> ComplexArray:
         """(3, n, m) complex amplitudes of the particle velocity in m/s.
 
-        height : (n,) in m above the mean water level, from -depth up; above 0 the formulas are
-        continued as they stand
+        height : (n,) in m above the mean water level, from -depth up; linear
+        fields give the values at 0 above it, exact ones their own formula
         """
 
     def acceleration(self, height: Array) -> ComplexArray:
