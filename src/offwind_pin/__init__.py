@@ -22,7 +22,7 @@ from offwind_pin.analysis.transient import simulate
 from offwind_pin.campaign.export import export_urdf
 from offwind_pin.campaign.soil_files import write_soil
 from offwind_pin.campaign.soil_overview import SoilOverview, soil_overview
-from offwind_pin.dynamics.sea import IrregularWaves, StillWater
+from offwind_pin.dynamics.sea import IrregularWaves, RegularWaves, StillWater
 from offwind_pin.dynamics.system import System
 from offwind_pin.dynamics.wind_loads import tower_drag
 from offwind_pin.errors import InputError, InterruptedSimulation, OffwindError, SolverError
@@ -57,6 +57,7 @@ __all__ = [
     "Parameter",
     "PowerLaw",
     "Pushover",
+    "RegularWaves",
     "RotorThrust",
     "RotorWind",
     "SciPyIVP",

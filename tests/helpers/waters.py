@@ -33,6 +33,9 @@ class RegularWater:
     def lowest_surface(self) -> float:
         return -self.highest_surface
 
+    def surface(self, time: Array, rise: Array) -> Array:
+        return rise * self.highest_surface * np.cos(self.omega * time)
+
     def rows(self, time: Array, rise: Array) -> Array:
         k, above_bed = self.wave_number, self.height + self.depth
         size = self.amplitude * self.omega / np.sinh(k * self.depth)
@@ -40,7 +43,7 @@ class RegularWater:
         velocity = np.zeros((len(time), len(self.height), 3), dtype=complex)
         velocity[..., 0] = phase * size * np.cosh(k * above_bed)
         velocity[..., 2] = phase * 1j * size * np.sinh(k * above_bed)
-        surface = phase * self.highest_surface
+        surface = self.surface(time, rise)[:, None]
         moving = [velocity, 1j * self.omega * self.inertia_factor * velocity]
         parts = [surface, *(part.reshape(len(time), -1) for part in moving)]
         return np.ascontiguousarray(np.hstack(parts).real)
@@ -52,19 +55,22 @@ class SteadyWater:
 
     count: int
     current: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    surface: float = 0.0
+    level: float = 0.0
 
     @property
     def highest_surface(self) -> float:
-        return self.surface
+        return self.level
 
     @property
     def lowest_surface(self) -> float:
-        return self.surface
+        return self.level
+
+    def surface(self, time: Array, rise: Array) -> Array:
+        return np.full(len(time), self.highest_surface)
 
     def rows(self, time: Array, rise: Array) -> Array:
         velocity = np.tile(self.current, self.count)
-        row = np.concatenate([[self.surface], velocity, np.zeros(3 * self.count)])
+        row = np.concatenate([[self.level], velocity, np.zeros(3 * self.count)])
         return np.tile(row, (len(time), 1))
 
 

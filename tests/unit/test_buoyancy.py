@@ -91,7 +91,7 @@ def by_strips(line: Line, radius: Radius, count: int = 80) -> tuple[Array, Array
     middle = (edges[:-1] + edges[1:]) / 2
     strips = Strips(middle + FOOT[2], np.diff(edges), 2 * radius(middle))
     area = np.pi * float(radius(np.zeros(1))[0]) ** 2
-    load = Buoyancy(strips, WEIGHT, area, LEVEL, SteadyWater(count, surface=LEVEL))
+    load = Buoyancy(strips, WEIGHT, area, LEVEL, SteadyWater(count, level=LEVEL))
     place, axis = line(np.append(middle, 0.0))
     nothing = np.zeros_like(place)
     motion = PointMotion(place, nothing, nothing, axis)
@@ -161,7 +161,7 @@ def standing(count: int, surface: float, tilt: float) -> tuple[Buoyancy, PointMo
     middle = (edges[:-1] + edges[1:]) / 2
     dry = np.zeros(count, dtype=bool)
     strips = Strips(middle - 30.0, np.diff(edges), np.full(count, 2 * RADIUS), dry)
-    water = SteadyWater(count, surface=surface)
+    water = SteadyWater(count, level=surface)
     load = Buoyancy(strips, WEIGHT, np.pi * RADIUS**2, 0.0, water)
     axis = np.array([np.sin(tilt), 0.0, np.cos(tilt)])
     place = np.array([0.0, 0.0, -30.0]) + np.append(middle, 0.0)[:, None] * axis

@@ -8,9 +8,9 @@ from scipy.special import jv, yv
 import offwind_pin as ow
 from offwind_pin.dynamics.water_loads import Waters
 from offwind_pin.loads.diffraction import SMALLEST, inertia_factor, maccamy_fuchs
+from offwind_pin.loads.dispersion import wave_number
 from offwind_pin.loads.morison import MorisonForce
 from offwind_pin.loads.strips import Strips
-from offwind_pin.loads.waves import wave_number
 
 SIZES = np.array([0.05, 0.1, 0.3, 0.7, 1.0, 1.5, 2.0, 3.0])
 """Radius times wave number."""

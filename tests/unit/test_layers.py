@@ -122,6 +122,7 @@ def test_public_names() -> None:
         "Parameter",
         "PowerLaw",
         "Pushover",
+        "RegularWaves",
         "RotorThrust",
         "RotorWind",
         "SciPyIVP",

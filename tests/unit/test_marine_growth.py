@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import offwind_pin as ow
-from offwind_pin.dynamics.water_loads import Waters, contents, water_loads
+from offwind_pin.dynamics.water_loads import Waters, contents
 from offwind_pin.loads.added_mass import AddedMass
 from offwind_pin.loads.buoyancy import Buoyancy
 from offwind_pin.loads.morison import MorisonForce
@@ -100,7 +100,7 @@ def test_loads_see_the_larger_diameter(oc6: ow.Turbine, grown: ow.Turbine) -> No
     drag = np.where(z < -10, 1.2, 1.0)
     assert waters.strips.diameter == pytest.approx(diameter, rel=1e-14)
     assert waters.drag.tolist() == drag.tolist()
-    added, wave, *rest = water_loads(grown, ow.StillWater())
+    added, wave, *rest = Waters.of(grown, ow.StillWater()).loads()
     assert rest == []
     assert isinstance(added, AddedMass)
     assert isinstance(wave, MorisonForce)
@@ -161,7 +161,7 @@ def test_what_a_turbine_s_water_is(oc6: ow.Turbine) -> None:
         keys: dict[str, Any] = {"buoyancy": floats}
         if inside is not None:
             keys["contents"] = inside
-        loads = water_loads(changed(oc6, **keys), ow.StillWater())
+        loads = Waters.of(changed(oc6, **keys), ow.StillWater()).loads()
         assert [load.name for load in loads] == expected
 
 

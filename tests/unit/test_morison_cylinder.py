@@ -8,10 +8,10 @@ from helpers.numerics import fitted_order
 from helpers.waters import RegularWater, SteadyWater, upright
 
 from offwind_pin.loads.added_mass import AddedMass
+from offwind_pin.loads.dispersion import wave_number
 from offwind_pin.loads.morison import MorisonForce
 from offwind_pin.loads.points import PointMotion
 from offwind_pin.loads.strips import Strips
-from offwind_pin.loads.waves import wave_number
 from offwind_pin.turbines.base import Array
 
 DEPTH, GRAVITY, DENSITY, DIAMETER = 30.0, 9.80665, 1025.0, 9.0

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from helpers.waters import RegularWater, upright
 
+from offwind_pin.loads.dispersion import wave_number
 from offwind_pin.loads.morison import MorisonForce
 from offwind_pin.loads.strips import Strips
-from offwind_pin.loads.waves import wave_number
 from offwind_pin.turbines.base import Array
 
 GRAVITY, DENSITY, ADDED, DRAG = 9.80665, 1025.0, 0.95, 1.05

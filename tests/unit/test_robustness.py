@@ -13,7 +13,6 @@ import yaml
 
 import offwind_pin as ow
 from offwind_pin import cli
-from offwind_pin.loads.waves import IrregularSea
 from offwind_pin.signal.spectra import band_sum
 from offwind_pin.turbines.definition import Member, Station
 
@@ -112,16 +111,6 @@ def test_waves_that_cannot_be(change: dict[str, Any]) -> None:
     settings = {"significant_height": 2.0, "peak_period": 10.0, "seed": 1, "repeat_period": 600.0}
     with pytest.raises(ow.InputError, match="waves"):
         ow.IrregularWaves(**(settings | change))
-
-
-def test_elevation_in_blocks_is_the_sum() -> None:
-    """Long histories are made in blocks, with the same sum of components."""
-    sea = IrregularSea.pierson_moskowitz(
-        2.0, 8.0, depth=30.0, gravity=9.81, repeat_period=200.0, seed=1
-    )
-    time = np.linspace(0, 300, 2501)
-    angle = 2 * np.pi * np.outer(time, sea.frequency) - sea.phase
-    assert np.allclose(sea.elevation(time), np.cos(angle) @ sea.amplitude, rtol=0, atol=1e-12)
 
 
 @pytest.mark.parametrize(

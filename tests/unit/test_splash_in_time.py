@@ -1,43 +1,26 @@
 """A turbine in waves whose surface wets and leaves strips: energies, masses, two integrators."""
 
-from collections.abc import Iterator
-
 import numpy as np
 import pytest
 import xarray as xr
 from helpers.numerics import fitted_order, relative_difference
-from helpers.waters import RegularWater
 
 import offwind_pin as ow
 from offwind_pin.dynamics.compiled_chain import CompiledChain
-from offwind_pin.dynamics.sea import Sea
-from offwind_pin.dynamics.water_loads import Waters, wetted_strips
 
 AMPLITUDE, OMEGA, WAVE_NUMBER = 4.0, 0.9, 0.088
 STEPS = np.array([0.04, 0.02, 0.01])
 
 
 @pytest.fixture(scope="module")
-def built(oc6: ow.Turbine) -> Iterator[tuple[ow.System, ow.ModalResult]]:
-    """A regular wave 8 m high in 30 m of water, in place of the still water that is built.
-
-    With it come the modes in still water, of strips that end at its surface.
-    """
-
-    def stretched(turbine: ow.Turbine, sea: Sea) -> Waters:
-        strips = wetted_strips(turbine, 0.0, -AMPLITUDE, AMPLITUDE)
-        one = np.ones(len(strips.height))
-        wave = RegularWater(strips.height, 30.0, AMPLITUDE, OMEGA, WAVE_NUMBER, stretched=True)
-        return Waters(turbine, strips, wave, 0.0, one, one)
-
+def built(oc6: ow.Turbine) -> tuple[ow.System, ow.ModalResult]:
+    """In a regular wave 8 m high; with it the modes in still water."""
     turbine = oc6.model_copy(
         update={"hydrodynamics": oc6.hydrodynamics.model_copy(update={"buoyancy": True})}
     )
-    system = ow.build(turbine, "coupled_springs", ow.StillWater(), elements=16)
-    still = ow.modes(system)
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(Waters, "of", staticmethod(stretched))
-        yield system, still
+    still = ow.build(turbine, "coupled_springs", ow.StillWater(), elements=16)
+    waves = ow.RegularWaves(2 * AMPLITUDE, 2 * np.pi / OMEGA, stretching="wheeler")
+    return ow.build(turbine, "coupled_springs", waves, elements=16), ow.modes(still)
 
 
 @pytest.fixture(scope="module")

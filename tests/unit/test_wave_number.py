@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
-from offwind_pin.loads.waves import wave_number
+from offwind_pin.loads.dispersion import wave_number
 
 GRAVITY = 9.80665
 

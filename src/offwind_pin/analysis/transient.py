@@ -211,10 +211,10 @@ def _block(chain: CompiledChain, state: MotionState, records: Records) -> Block:
     """Records and the state at their end, with the loads that depend on time alone."""
     time = records["time"]
     rise = smooth_ramp(time, chain.ramp_time)
-    sea = chain.system.sea
+    waters = chain.system.waters
     elevation = np.zeros(len(time))
-    if isinstance(sea, IrregularWaves):
-        elevation = rise * sea.realise(chain.system.turbine).elevation(time)
+    if waters is not None:
+        elevation = rise * waters.surface.elevation(time)
     tops = [load.rows(time, rise) for load in chain.loads if isinstance(load, TowerTopLoad)]
     return {
         **records,

@@ -21,7 +21,6 @@ from offwind_pin.display.style import (
     styled,
 )
 from offwind_pin.display.wording import TIMES, base_name, fixed
-from offwind_pin.dynamics.sea import IrregularWaves
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.soil import SoilSprings
 from offwind_pin.structure.section import outer_diameter
@@ -85,7 +84,7 @@ def _surroundings(axes: Axes, system: System) -> None:
     axes.axhline(mudline, color=_GROUND_LINE, lw=1.2, zorder=1)
     x = np.linspace(left, right, 200)
     surface = np.zeros_like(x)
-    if isinstance(system.sea, IrregularWaves):
+    if system.waters is not None and system.waters.surface.waves is not None:
         surface = 1.2 * np.cos(2 * np.pi * x / 20)
     if system.sea is not None:
         axes.fill_between(x, mudline, surface, color=WATER, lw=0, zorder=0)

@@ -11,7 +11,6 @@ import numpy as np
 from offwind_pin.analysis.modal import mode_name
 from offwind_pin.display.wording import (
     DASH,
-    as_given,
     base_name,
     count,
     difference,
@@ -22,7 +21,6 @@ from offwind_pin.display.wording import (
     sentence,
     significant_digits,
 )
-from offwind_pin.dynamics.sea import IrregularWaves
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.synthetic_wind import AIR_DENSITY
 from offwind_pin.structure.urdf import definition_hash
@@ -181,15 +179,7 @@ def structure_facts(system: System) -> list[tuple[str, str]]:
 
 def describe_sea(system: System) -> str:
     """The sea in words."""
-    sea = system.sea
-    if sea is None:
-        return "none (dry)"
-    if isinstance(sea, IrregularWaves):
-        return (
-            f"Pierson-Moskowitz waves, Hs {as_given(sea.significant_height)} m, "
-            f"Tp {as_given(sea.peak_period)} s"
-        )
-    return "still water"
+    return "none (dry)" if system.sea is None else system.sea.in_words
 
 
 def mode_rows(report: CaseReport) -> list[ModeRow]:

@@ -19,7 +19,6 @@ import pinocchio as pin
 from offwind_pin.dynamics.kinematics import AxisPoints, ChainMotion
 from offwind_pin.dynamics.restraints import KernelRestraint, as_kernel_restraint
 from offwind_pin.dynamics.system import System
-from offwind_pin.dynamics.water_loads import water_loads
 from offwind_pin.errors import InputError
 from offwind_pin.loads.points import (
     MOMENT_BY_POSITION,
@@ -207,7 +206,7 @@ def all_loads(system: System, loads: Sequence[PointLoad]) -> list[PointLoad]:
     ------
     InputError : a load beside the structure
     """
-    water = [] if system.sea is None else water_loads(system.turbine, system.sea)
+    water = [] if system.waters is None else system.waters.loads()
     everything: list[PointLoad] = [*water, *system.foundation.soil, *loads]
     for load in everything:
         highest = system.chain.top + _REACH

@@ -1,27 +1,93 @@
-"""What the sea does to a system: the water that moves with it, and the waves that pass."""
+"""What the sea is: water at rest or in waves, on a current, at a level."""
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
 import numpy as np
 
 from offwind_pin.errors import InputError
-from offwind_pin.loads.waves import IrregularSea
-from offwind_pin.turbines.definition import Turbine
+from offwind_pin.loads.linear_waves import LinearWaves
+from offwind_pin.loads.water_series import CurrentProfile, Stretching
+from offwind_pin.loads.wave_field import WaveField
+from offwind_pin.loads.wave_spectra import pierson_moskowitz
+from offwind_pin.turbines.base import Array
+
+_STREAM = 1
+"""Keeps the random numbers of waves and wind apart when a case gives both one seed."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sea(ABC):
+    """What all seas have.
+
+    Attributes
+    ----------
+    current : over height, or None for none
+    water_level : mean height of the surface in m (tide, surge)
+    stretching : how linear waves act above the mean water level, see :class:`WaterSeries`
+    """
+
+    current: CurrentProfile | None = None
+    water_level: float = 0.0
+    stretching: Stretching = "none"
+
+    @abstractmethod
+    def waves(self, depth: float, gravity: float) -> WaveField | None:
+        """The waves over a depth in m under a gravity in m/s2, or None for none."""
+
+    @property
+    @abstractmethod
+    def in_words(self) -> str:
+        """The waves as a reader is told of them."""
 
 
 @dataclass(frozen=True)
-class StillWater:
-    """Water at rest: added mass, and drag on a structure that moves."""
+class StillWater(Sea):
+    """Water without waves: added mass, and drag on a structure that moves."""
 
-    def realise(self, turbine: Turbine) -> IrregularSea:
-        nothing = np.zeros(0)
-        return IrregularSea(nothing, nothing, nothing, -turbine.site.mudline, turbine.site.gravity)
+    def waves(self, depth: float, gravity: float) -> None:
+        return None
+
+    @property
+    def in_words(self) -> str:
+        return "still water"
 
 
 @dataclass(frozen=True)
-class IrregularWaves:
+class RegularWaves(Sea):
+    """A linear wave of one height and period, its crest at the axis at time 0.
+
+    height in m from trough to crest, period in s, direction_deg in which it travels, from +x
+    towards +y.
+    """
+
+    height: float
+    period: float
+    direction_deg: float = 0.0
+
+    def __post_init__(self) -> None:
+        for name in ("height", "period"):
+            require_positive(f"waves, field {name}", getattr(self, name))
+
+    def waves(self, depth: float, gravity: float) -> LinearWaves:
+        return LinearWaves.free(
+            self.period,
+            np.ones(1),
+            np.array([self.height / 2 + 0j]),
+            depth,
+            gravity,
+            float(np.radians(self.direction_deg)),
+        )
+
+    @property
+    def in_words(self) -> str:
+        return f"regular waves, {self.height:g} m high, {self.period:g} s"
+
+
+@dataclass(frozen=True)
+class IrregularWaves(Sea):
     """Pierson-Moskowitz sea travelling along +x.
 
     significant_height in m, peak_period in s; repeat_period in s should exceed the case's length.
@@ -34,24 +100,33 @@ class IrregularWaves:
 
     def __post_init__(self) -> None:
         for name in ("significant_height", "peak_period", "repeat_period"):
-            value = getattr(self, name)
-            if not (np.isfinite(value) and value > 0):
-                raise InputError(f"waves, field {name}", value, "a positive number", "Correct it.")
+            require_positive(f"waves, field {name}", getattr(self, name))
         if self.repeat_period < 5 * self.peak_period:
             allowed = f"at least five peak periods ({5 * self.peak_period} s)"
             raise InputError("waves, field repeat_period", self.repeat_period, allowed, "Raise it.")
         if not (isinstance(self.seed, int) and self.seed >= 0):
             raise InputError("waves, field seed", self.seed, "a whole number from 0", "Correct it.")
 
-    def realise(self, turbine: Turbine) -> IrregularSea:
-        return IrregularSea.pierson_moskowitz(
-            self.significant_height,
-            self.peak_period,
-            depth=-turbine.site.mudline,
-            gravity=turbine.site.gravity,
-            repeat_period=self.repeat_period,
-            seed=self.seed,
-        )
+    def waves(self, depth: float, gravity: float) -> LinearWaves:
+        """Components from 0.4 to 5 times the peak frequency.
+
+        They hold 99.8 % of the variance, and shorter waves are lost on a cylinder many times their
+        length.
+        """
+        step, peak = 1 / self.repeat_period, 1 / self.peak_period
+        harmonic: Array = np.arange(np.ceil(0.4 * peak / step), np.floor(5 * peak / step) + 1)
+        density = pierson_moskowitz(harmonic * step, self.significant_height, self.peak_period)
+        phase = np.random.default_rng((self.seed, _STREAM)).uniform(0, 2 * np.pi, len(harmonic))
+        amplitude = np.sqrt(2 * density * step) * np.exp(-1j * phase)
+        return LinearWaves.free(self.repeat_period, harmonic, amplitude, depth, gravity)
+
+    @property
+    def in_words(self) -> str:
+        height, period = self.significant_height, self.peak_period
+        return f"Pierson-Moskowitz waves, Hs {height:g} m, Tp {period:g} s"
 
 
-Sea = StillWater | IrregularWaves
+def require_positive(where: str, value: float) -> None:
+    """Refuse what is no positive number."""
+    if not (np.isfinite(value) and value > 0):
+        raise InputError(where, value, "a positive number", "Correct it.")

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import pinocchio as pin
 
 from offwind_pin.dynamics.foundations import Foundation
 from offwind_pin.dynamics.sea import Sea
+from offwind_pin.dynamics.water_loads import Waters
 from offwind_pin.loads.points import PointLoad
 from offwind_pin.structure.chain import Chain
 from offwind_pin.structure.model import Scratch
@@ -47,6 +49,11 @@ class System:
     @property
     def nv(self) -> int:
         return int(self.pin_model.nv)
+
+    @cached_property
+    def waters(self) -> Waters | None:
+        """The sea as the structure meets it, realised once; None for a dry structure."""
+        return None if self.sea is None else Waters.of(self.turbine, self.sea)
 
     def with_damping(self, joint_damping: Array, ratios: dict[str, float]) -> System:
         """The same system with other joint dampers."""

@@ -2,63 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from offwind_pin.dynamics.sea import Sea
+from offwind_pin.errors import InputError
 from offwind_pin.loads.added_mass import AddedMass, SplashAddedMass
 from offwind_pin.loads.buoyancy import Buoyancy
 from offwind_pin.loads.diffraction import inertia_factor
 from offwind_pin.loads.keulegan_carpenter import keulegan_carpenter
 from offwind_pin.loads.morison import MorisonForce
 from offwind_pin.loads.points import KernelLoad
-from offwind_pin.loads.strips import Strips, Water, strips_up_to
-from offwind_pin.loads.waves import IrregularSea, WaveKinematics, wave_number
+from offwind_pin.loads.strips import Strips, strips_up_to
+from offwind_pin.loads.water_series import WaterSeries, WaterSurface
+from offwind_pin.loads.wave_field import WaveField
 from offwind_pin.structure.section import inner_diameter, wetted_diameter
 from offwind_pin.turbines.base import Array, ComplexArray
 from offwind_pin.turbines.definition import Turbine
 from offwind_pin.turbines.hydrodynamics import FloodedPile, coefficient_at
-
-_BLOCK = 128
-"""Times for which all components are held in memory at once."""
-
-
-@dataclass(frozen=True, eq=False)
-class _LinearWater:
-    """Airy waves up to still water level.
-
-    inertia_factor (n, m) by which the amplitude of each component's acceleration is multiplied at
-    each strip; None for 1
-    """
-
-    kinematics: WaveKinematics
-    inertia_factor: ComplexArray | None = None
-    highest_surface: float = 0.0
-    lowest_surface: float = 0.0
-
-    def rows(self, time: Array, rise: Array) -> Array:
-        n = len(self.kinematics.horizontal)
-        rows = np.zeros((len(time), 1 + 6 * n))
-        if len(self.kinematics.omega) > 0:
-            moved = self.kinematics.at_times(time)
-            if self.inertia_factor is not None:
-                moved[:, 1] = self._accelerations(time, self.inertia_factor)
-            rows[:, 1:] = rise[:, None] * moved.reshape(len(time), -1)
-        return rows
-
-    def _accelerations(self, time: Array, factor: ComplexArray) -> Array:
-        """(t, n, 3) accelerations with a factor (n, m), by blocks of times."""
-        waves = self.kinematics
-        result = np.zeros((len(time), len(waves.horizontal), 3))
-        turned = 1j * waves.omega * factor * np.exp(-1j * waves.phase)
-        for axis, amplitude in ((0, waves.horizontal + 0j), (2, 1j * waves.vertical)):
-            of_component = (turned * amplitude).T
-            for block in np.array_split(np.arange(len(time)), len(time) // _BLOCK + 1):
-                angle = np.outer(time[block], waves.omega)
-                moved = np.cos(angle) @ of_component.real - np.sin(angle) @ of_component.imag
-                result[block, :, axis] = moved
-        return result
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,28 +31,35 @@ class Waters:
     Attributes
     ----------
     strips : from the mudline up to the highest surface
-    water : its motion at the strips
-    still : height of the still surface in m
+    surface, water : its surface, and its motion at the strips
     added_mass, drag : (n,) coefficients of the strips
     """
 
     turbine: Turbine
     strips: Strips
-    water: Water
-    still: float
+    surface: WaterSurface
+    water: WaterSeries
     added_mass: Array
     drag: Array
 
     @staticmethod
     def of(turbine: Turbine, sea: Sea) -> Waters:
-        realised: IrregularSea = sea.realise(turbine)
-        strips = wetted_strips(turbine, still=0.0, lowest=0.0, highest=0.0)
-        kinematics = realised.kinematics_at(strips.height)
-        amplitude = [kinematics.horizontal, 0 * kinematics.horizontal, 1j * kinematics.vertical]
-        added, drag = coefficients(turbine, strips, np.stack(amplitude), kinematics.omega)
-        k = wave_number(kinematics.omega, realised.depth, realised.gravity)
-        water = _LinearWater(kinematics, diffraction(turbine, strips, k, added))
-        return Waters(turbine, strips, water, 0.0, added, drag)
+        """Realise a sea at a turbine."""
+        level, mudline = sea.water_level, turbine.site.mudline
+        if not level > mudline:
+            allowed = f"above the mudline (z = {mudline} m)"
+            raise InputError("sea, field water_level", level, allowed, "Raise it.")
+        waves = sea.waves(level - mudline, turbine.site.gravity)
+        surface = WaterSurface(waves, level, sea.stretching)
+        strips = wetted_strips(turbine, level, surface.lowest, surface.highest)
+        added, drag = coefficients(turbine, strips.height, waves, level)
+        water = WaterSeries(
+            strips.height,
+            surface,
+            current=sea.current,
+            inertia_factor=diffraction(turbine, waves, level),
+        )
+        return Waters(turbine, strips, surface, water, added, drag)
 
     def loads(self) -> list[KernelLoad]:
         """Every load of the water, the permanent added mass first."""
@@ -131,7 +101,7 @@ class Waters:
         """Of the water outside."""
         end = wetted_diameter(self.turbine, np.array([self.turbine.site.mudline]))[0]
         weight = self.turbine.site.water_density * self.turbine.site.gravity
-        return Buoyancy(self.strips, weight, np.pi / 4 * end**2, self.still, self.water)
+        return Buoyancy(self.strips, weight, np.pi / 4 * end**2, self.surface.level, self.water)
 
 
 def wetted_strips(turbine: Turbine, still: float, lowest: float, highest: float) -> Strips:
@@ -146,30 +116,37 @@ def wetted_strips(turbine: Turbine, still: float, lowest: float, highest: float)
 
 
 def coefficients(
-    turbine: Turbine, strips: Strips, velocity: ComplexArray, omega: Array
+    turbine: Turbine, height: Array, waves: WaveField | None, water_level: float
 ) -> tuple[Array, Array]:
-    """Added-mass and drag coefficients (n,) of strips in waves.
+    """Added-mass and drag coefficients (n,) of strips at heights (n,) in m in waves.
 
-    velocity (3, n, m) complex amplitudes of the water at the strips in m/s, taken at the still
-    surface where a strip lies above it; omega (m,) in rad/s
+    Above the mean water level the water moves as it does there.
     """
-    z, hydrodynamics = strips.height, turbine.hydrodynamics
-    number = keulegan_carpenter(velocity, omega, strips.diameter)
-    added = coefficient_at(hydrodynamics.added_mass_coefficient, z, number)
-    drag = coefficient_at(hydrodynamics.drag_coefficient, z, number)
+    hydrodynamics = turbine.hydrodynamics
+    number = np.zeros(len(height))
+    if waves is not None and hydrodynamics.needs_keulegan_carpenter:
+        velocity = waves.velocity(np.minimum(height - water_level, 0.0))
+        number = keulegan_carpenter(velocity, waves.omega, wetted_diameter(turbine, height))
+    added = coefficient_at(hydrodynamics.added_mass_coefficient, height, number)
+    drag = coefficient_at(hydrodynamics.drag_coefficient, height, number)
     for layer in hydrodynamics.marine_growth:
         if layer.drag_coefficient is not None:
-            drag[(z >= layer.bottom) & (z < layer.top)] = layer.drag_coefficient
+            drag[(height >= layer.bottom) & (height < layer.top)] = layer.drag_coefficient
     return added, drag
 
 
 def diffraction(
-    turbine: Turbine, strips: Strips, wave_number: Array, added_mass: Array
-) -> ComplexArray | None:
-    """(n, m) factors of the acceleration of each harmonic at each strip, or None for one."""
-    if turbine.hydrodynamics.diffraction == "none":
+    turbine: Turbine, waves: WaveField | None, water_level: float
+) -> Callable[[Array], ComplexArray] | None:
+    """Gives the factors (n, m) of each harmonic's acceleration at heights; None for one."""
+    if turbine.hydrodynamics.diffraction == "none" or waves is None:
         return None
-    return inertia_factor(strips.diameter, wave_number, added_mass)
+
+    def factor(height: Array) -> ComplexArray:
+        added, _ = coefficients(turbine, height, waves, water_level)
+        return inertia_factor(wetted_diameter(turbine, height), waves.wave_number, added)
+
+    return factor
 
 
 def contents(turbine: Turbine, inside: FloodedPile) -> list[KernelLoad]:
@@ -189,8 +166,3 @@ def contents(turbine: Turbine, inside: FloodedPile) -> list[KernelLoad]:
         area = np.pi / 4 * end**2
         result.append(Buoyancy(strips, weight, area, inside.level, name="contained_pressure"))
     return result
-
-
-def water_loads(turbine: Turbine, sea: Sea) -> list[KernelLoad]:
-    """Every load of the water on a turbine in a sea; the permanent added mass comes first."""
-    return Waters.of(turbine, sea).loads()

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from offwind_pin.dynamics.system import System
-from offwind_pin.dynamics.water_loads import Waters
 from offwind_pin.errors import InputError
 from offwind_pin.loads.strips import Strips
 from offwind_pin.loads.tower_drag import STRIP_LENGTH, TowerDrag, TowerWind
@@ -39,6 +38,6 @@ def tower_drag(system: System, wind: TowerWind) -> TowerDrag:
 
 def _water_line(system: System) -> float:
     """Height in m that the water does not exceed; still water level of a dry structure."""
-    if system.sea is None:
+    if system.waters is None:
         return 0.0
-    return Waters.of(system.turbine, system.sea).water.highest_surface
+    return system.waters.surface.highest

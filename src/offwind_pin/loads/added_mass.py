@@ -9,7 +9,7 @@ import numpy as np
 
 from offwind_pin.compiled import kernel
 from offwind_pin.loads.points import KernelLoad, energy_kernel, force_kernel, tangent_kernel
-from offwind_pin.loads.strips import Strips, Water, surface_rows, wet_share
+from offwind_pin.loads.strips import Strips, Water, wet_share
 from offwind_pin.turbines.base import Array
 
 
@@ -146,4 +146,4 @@ class SplashAddedMass(KernelLoad):
 
     def rows(self, time: Array, rise: Array) -> Array:
         """(t, 1) height of the surface in m."""
-        return surface_rows(self.water, time, rise)
+        return self.water.surface(time, rise)[:, None]

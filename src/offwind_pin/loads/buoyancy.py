@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from offwind_pin.loads.points import KernelLoad, force_kernel, tangent_kernel
-from offwind_pin.loads.strips import Strips, Water, surface_rows, wet_share
+from offwind_pin.loads.strips import Strips, Water, wet_share
 from offwind_pin.turbines.base import Array
 
 _LIFT, _BOTTOM, _LENGTH, _STILL, _CAP = range(5)
@@ -107,4 +107,4 @@ class Buoyancy(KernelLoad):
         """(t, 1) height of the surface in m."""
         if self.water is None:
             return np.full((len(time), 1), self.level)
-        return surface_rows(self.water, time, rise)
+        return self.water.surface(time, rise)[:, None]

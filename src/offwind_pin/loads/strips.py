@@ -30,11 +30,11 @@ class Water(Protocol):
     def lowest_surface(self) -> float:
         """Height in m that the surface does not fall below; the highest one if it stays."""
 
-    def rows(self, time: Array, rise: Array) -> Array:
-        """(t, 1 + 6 n) surface in m, velocity (n, 3) in m/s and acceleration (n, 3) in m/s2.
+    def surface(self, time: Array, rise: Array) -> Array:
+        """(t,) height in m up to which strips are wet, at a rise of 0 the mean water level."""
 
-        The surface is the height up to which strips are wet, at a rise of 0 the mean water level.
-        """
+    def rows(self, time: Array, rise: Array) -> Array:
+        """(t, 1 + 6 n) surface in m, velocity (n, 3) in m/s and acceleration (n, 3) in m/s2."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,13 +82,6 @@ class Strips:
         return Strips(
             self.height[chosen], self.length[chosen], self.diameter[chosen], self.wet[chosen]
         )
-
-
-def surface_rows(water: Water, time: Array, rise: Array) -> Array:
-    """(t, 1) height of the surface in m, for loads that need nothing else of the water."""
-    if water.highest_surface == water.lowest_surface:
-        return np.full((len(time), 1), water.highest_surface)
-    return water.rows(time, rise)[:, :1]
 
 
 def strips_up_to(

@@ -170,6 +170,12 @@ class Hydrodynamics(Definition):
                 )
         return self
 
+    @property
+    def needs_keulegan_carpenter(self) -> bool:
+        """Whether a coefficient depends on the Keulegan-Carpenter number."""
+        given = (self.added_mass_coefficient, self.drag_coefficient)
+        return any(isinstance(one, CoefficientOverKeuleganCarpenter) for one in given)
+
     def growth_at(self, height: Array) -> Array:
         """(n,) thickness of marine growth in m at heights; on a boundary that of the upper one."""
         thickness = np.zeros(len(height))

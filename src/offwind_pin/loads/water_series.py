@@ -1,0 +1,282 @@
+"""Water over time: its surface, and its motion at strips in waves and a current."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Literal, Protocol, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+
+from offwind_pin.compiled import kernel
+from offwind_pin.errors import InputError
+from offwind_pin.loads.harmonic_series import HarmonicSeries
+from offwind_pin.loads.wave_field import WaveField
+from offwind_pin.turbines.base import Array, ComplexArray
+
+Stretching = Literal["none", "vertical", "extrapolation", "wheeler"]
+
+_LEVELS = 96
+"""Heights at which stretched profiles are known; they lie closest at the surface."""
+_ROUNDING = 1e-12
+"""Profiles that hold less than this part of the largest are left out."""
+
+_VERTICAL, _EXTRAPOLATION, _WHEELER, _EXACT = range(4)
+_RULES = {"vertical": _VERTICAL, "extrapolation": _EXTRAPOLATION, "wheeler": _WHEELER}
+
+
+class CurrentProfile(Protocol):
+    """A current over height."""
+
+    def velocity(self, height: Array) -> Array:
+        """(n, 3) in m/s at heights (n,) in m above the mean water level, where at most 0."""
+
+
+class WaterSurface:
+    """The surface of water at the axis: at a level, or in waves.
+
+    Without stretching, waves act up to the mean water level, and the surface that strips see stays
+    there. With it their kinematics reach up to the moving surface: those of the mean water level as
+    they stand (vertical), continued with the slope they have there (extrapolation), or those of the
+    height (z - eta) h / (h + eta) (Wheeler, J. Petroleum Tech. 22, 1970, 359). Fields that know
+    their exact surface are taken as they are.
+
+    Attributes
+    ----------
+    waves, level : the waves, and the mean height of the surface in m
+    rule : how the kinematics reach the moving surface; None where the surface stays
+    highest_elevation, lowest_elevation : over a whole period of the waves, in m above the level
+    highest, lowest : of the surface that strips see, in m
+    """
+
+    def __init__(self, waves: WaveField | None, level: float, stretching: Stretching) -> None:
+        if stretching not in get_args(Stretching):
+            allowed = ", ".join(get_args(Stretching))
+            raise InputError("sea, field stretching", stretching, allowed, "Choose one.")
+        self.waves = waves
+        self.level = level
+        self.rule = _RULES.get(stretching)
+        self.highest_elevation = self.lowest_elevation = 0.0
+        self._elevation = None
+        if waves is None:
+            self.rule = None
+        else:
+            if waves.exact_surface:
+                self.rule = _EXACT
+            self._elevation = HarmonicSeries(waves.period, waves.harmonic, waves.elevation[None])
+            low, high = self._elevation.extremes
+            self.lowest_elevation, self.highest_elevation = float(low[0]), float(high[0])
+        moves = self.rule is not None
+        self.highest = level + (self.highest_elevation if moves else 0.0)
+        self.lowest = level + (self.lowest_elevation if moves else 0.0)
+
+    def elevation(self, time: Array) -> Array:
+        """(t,) surface of the fully grown waves above the mean water level in m."""
+        return np.zeros(len(time)) if self._elevation is None else self._elevation.at(time)[:, 0]
+
+    def at(self, time: Array, rise: Array) -> Array:
+        """(t,) height in m up to which strips are wet."""
+        if self.rule is None:
+            return np.full(len(time), self.level)
+        return self.level + rise * self.elevation(time)
+
+
+class WaterSeries:
+    """Velocity and acceleration of water at n strips, and the surface up to which it wets them.
+
+    The current above the mean water level is that at it.
+
+    Attributes
+    ----------
+    highest_surface, lowest_surface : in m, over a whole period of the waves; equal if it stays
+    """
+
+    def __init__(
+        self,
+        height: Array,
+        surface: WaterSurface,
+        *,
+        current: CurrentProfile | None = None,
+        inertia_factor: Callable[[Array], ComplexArray] | None = None,
+    ) -> None:
+        """height (n,) of the strips in m.
+
+        inertia_factor : gives for heights (k,) in m the factors (k, m) of the amplitudes of the
+            accelerations there, for diffraction
+        """
+        above_level = np.array(height, dtype=float) - surface.level
+        self._surface = surface
+        self._current = np.zeros((len(height), 3))
+        if current is not None:
+            self._current = current.velocity(np.minimum(above_level, 0.0))
+        self._motion = None
+        if surface.waves is not None:
+            self._motion = _Motion(surface.waves, surface, above_level, inertia_factor)
+        self.highest_surface, self.lowest_surface = surface.highest, surface.lowest
+
+    def surface(self, time: Array, rise: Array) -> Array:
+        """(t,) height in m up to which strips are wet."""
+        return self._surface.at(time, rise)
+
+    def rows(self, time: Array, rise: Array) -> Array:
+        """(t, 1 + 6 n) surface in m, velocity (n, 3) in m/s, acceleration (n, 3) in m/s2.
+
+        rise (t,) multiplies the waves; the current acts in full.
+        """
+        n = len(self._current)
+        rows = np.zeros((len(time), 1 + 6 * n))
+        rows[:, 0] = self.surface(time, rise)
+        if self._motion is not None:
+            self._motion.write(time, rise, rows[:, 0] - self._surface.level, rows[:, 1:])
+        rows[:, 1 : 1 + 3 * n] += self._current.ravel()
+        return rows
+
+
+class _Motion:
+    """Particle motion as a few profiles over height times sums of harmonics.
+
+    The amplitudes of all harmonics at many heights have few independent profiles over height. The
+    sums belong to profiles, not to heights, and a height needs only to blend the profiles.
+    """
+
+    def __init__(
+        self,
+        waves: WaveField,
+        surface: WaterSurface,
+        height: Array,
+        inertia_factor: Callable[[Array], ComplexArray] | None,
+    ) -> None:
+        rule = surface.rule
+        self._height, self._rule, self._depth = height, rule, waves.depth
+        level = height
+        if rule is not None:
+            level = _levels(waves.depth, surface.highest_elevation if rule == _EXACT else 0.0)
+        velocity = waves.velocity(level)
+        acceleration = waves.acceleration(level)
+        if inertia_factor is not None:
+            acceleration = acceleration * inertia_factor(level + surface.level)
+        profiles, weights, self._parts = _few_profiles(velocity, acceleration)
+        self._sums = HarmonicSeries(waves.period, waves.harmonic, weights)
+        self._level = level
+        self._profiles = profiles  # (p, l)
+        if rule is not None:
+            self._spline = np.ascontiguousarray(CubicSpline(level, profiles.T).c.transpose(1, 2, 0))
+
+    def write(self, time: Array, rise: Array, elevation: Array, result: Array) -> None:
+        """Add to (t, 6 n) velocities, then accelerations, both (n, 3), under surfaces (t,)."""
+        sums = rise[:, None] * self._sums.at(time)
+        n = len(self._height)
+        if self._rule is not None:
+            _stretched(
+                self._rule,
+                self._depth,
+                self._height,
+                elevation,
+                self._level,
+                self._spline,
+                sums,
+                self._parts,
+                result,
+            )
+            return
+        whole = result.reshape(len(time), 2, n, 3)
+        for quantity, axis, profile, column, count in self._parts:
+            profiles = self._profiles[profile : profile + count]
+            whole[:, quantity, :, axis] += sums[:, column : column + count] @ profiles
+
+
+def _levels(depth: float, top: float) -> Array:
+    """Heights in m from the bed up to a top, closest where waves decay fastest."""
+    share = np.linspace(1.0, 0.0, _LEVELS)
+    below = -depth * share**2
+    below[0] = -depth
+    if top <= 0:
+        return below
+    return np.concatenate([below, np.linspace(0, top, max(2, _LEVELS // 2))[1:]])
+
+
+def _few_profiles(
+    velocity: ComplexArray, acceleration: ComplexArray
+) -> tuple[Array, ComplexArray, NDArray[np.intp]]:
+    """Profiles (p, l) over height, weights (c, m), and parts (k, 5) that put them together.
+
+    A part says of which quantity (0 velocity, 1 acceleration) and axis it is, which profiles it
+    begins with, which sums, and how many. Directions without motion have none; both horizontal ones
+    share their profiles.
+    """
+    profiles: list[Array] = []
+    weights: list[ComplexArray] = []
+    parts = []
+    first = column = 0
+    for quantity, field in enumerate((velocity, acceleration)):
+        for axes in ((0, 1), (2,)):
+            moving = [axis for axis in axes if np.any(field[axis])]
+            if not moving:
+                continue
+            found = _profiles(np.hstack([field[axis] for axis in moving]))
+            for axis in moving:
+                weights.append(found @ field[axis])
+                parts.append((quantity, axis, first, column, len(found)))
+                column += len(found)
+            profiles.append(found)
+            first += len(found)
+    if not parts:
+        harmonics, levels = velocity.shape[2], velocity.shape[1]
+        return np.zeros((0, levels)), np.zeros((0, harmonics), complex), np.zeros((0, 5), np.intp)
+    return np.vstack(profiles), np.vstack(weights), np.array(parts, dtype=np.intp)
+
+
+def _profiles(amplitude: ComplexArray) -> Array:
+    """(r, l) orthonormal profiles of which all columns of (l, m) are made, to rounding."""
+    columns = np.hstack([amplitude.real, amplitude.imag])
+    if columns.shape[1] > columns.shape[0]:
+        columns = np.asarray(np.linalg.qr(columns.T, mode="r")).T
+    shape, size, _ = np.linalg.svd(columns, full_matrices=False)
+    return np.ascontiguousarray(shape[:, size > _ROUNDING * size[0]].T)
+
+
+@kernel
+def _stretched(
+    rule: int,
+    depth: float,
+    height: Array,
+    elevation: Array,
+    level: Array,
+    spline: Array,
+    sums: Array,
+    parts: NDArray[np.intp],
+    result: Array,
+) -> None:
+    """Add motions under a moving surface: profiles (l - 1, p, 4) at heights that move with it."""
+    n = len(height)
+    profiles = spline.shape[1]
+    value = np.empty(profiles)
+    last = len(level) - 2
+    for t in range(len(elevation)):
+        interval = 0
+        for i in range(n):
+            z = height[i]
+            beyond = 0.0
+            if rule == _WHEELER:
+                z = (z - elevation[t]) * depth / (depth + elevation[t])
+            if rule == _EXTRAPOLATION:
+                beyond = max(min(z, elevation[t]), 0.0)
+            if rule != _EXACT:
+                z = min(z, 0.0)
+            z = min(max(z, level[0]), level[last + 1])
+            if interval > last or level[interval] > z:
+                interval = 0
+            while interval < last and level[interval + 1] < z:
+                interval += 1
+            x = z - level[interval]
+            for p in range(profiles):
+                c = spline[interval, p]
+                value[p] = ((c[0] * x + c[1]) * x + c[2]) * x + c[3]
+                if beyond > 0:
+                    value[p] += beyond * ((3 * c[0] * x + 2 * c[1]) * x + c[2])
+            for k in range(len(parts)):
+                total = 0.0
+                for p in range(parts[k, 4]):
+                    total += value[parts[k, 2] + p] * sums[t, parts[k, 3] + p]
+                result[t, 3 * n * parts[k, 0] + 3 * i + parts[k, 1]] += total
