@@ -24,12 +24,15 @@ from offwind_pin.campaign.soil_files import write_soil
 from offwind_pin.campaign.soil_overview import SoilOverview, soil_overview
 from offwind_pin.dynamics.sea import IrregularWaves, StillWater
 from offwind_pin.dynamics.system import System
+from offwind_pin.dynamics.wind_loads import tower_drag
 from offwind_pin.errors import InputError, InterruptedSimulation, OffwindError, SolverError
 from offwind_pin.loads.rotor_thrust import RotorThrust
 from offwind_pin.loads.rotor_turbulence import RotorWind
 from offwind_pin.loads.synthetic_wind import SyntheticWind
 from offwind_pin.loads.thrust_table import thrust_curve
+from offwind_pin.loads.tower_drag import TowerWind
 from offwind_pin.loads.tower_top import LoadHistory, read_load_history
+from offwind_pin.loads.wind_profile import ExtremeOperatingGust, LogLaw, PowerLaw, WindSeries
 from offwind_pin.solve.steps import AdaptiveStep, FixedStep
 from offwind_pin.turbines.definition import Turbine
 from offwind_pin.turbines.reader import load_turbine, shipped_turbines
@@ -39,6 +42,7 @@ __all__ = [
     "AdaptiveStep",
     "Condensation",
     "DeflectionTarget",
+    "ExtremeOperatingGust",
     "FixedStep",
     "FrequencyTarget",
     "GeneralizedAlpha",
@@ -47,9 +51,11 @@ __all__ = [
     "InterruptedSimulation",
     "IrregularWaves",
     "LoadHistory",
+    "LogLaw",
     "ModalResult",
     "OffwindError",
     "Parameter",
+    "PowerLaw",
     "Pushover",
     "RotorThrust",
     "RotorWind",
@@ -61,7 +67,9 @@ __all__ = [
     "StillWater",
     "SyntheticWind",
     "System",
+    "TowerWind",
     "Turbine",
+    "WindSeries",
     "aerodynamic_damping",
     "build",
     "condense",
@@ -79,5 +87,6 @@ __all__ = [
     "soil_overview",
     "static",
     "thrust_curve",
+    "tower_drag",
     "write_soil",
 ]

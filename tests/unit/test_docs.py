@@ -21,6 +21,7 @@ from offwind_pin.loads.soil_families import (
     lateral_curves,
     rocking_curves,
 )
+from offwind_pin.turbines.hydrodynamics import Hydrodynamics
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -97,6 +98,28 @@ def test_layers_of_the_docs(written: Path) -> None:
         assert curve(springs.curve, ground) is not None
     for along in (vertical_curves, torsional_curves, toe_bearing_curve):
         assert along(springs, ground) is not None
+
+
+def test_hydrodynamics_of_the_docs(written: Path) -> None:
+    """All of it at once takes the place of the two coefficients, and makes the turbine slower."""
+    path = written / "my_turbine.yaml"
+    bare = ow.load_turbine(path)
+    data = yaml.safe_load(path.read_text())
+    data |= yaml.safe_load(_blocks("docs/turbine_file.md", "yaml")[2])
+    path.write_text(yaml.safe_dump(data))
+    full = ow.load_turbine(path)
+    assert set(data["hydrodynamics"]) == set(hydrodynamic_keys())
+    frequency = []
+    for turbine in (bare, full):
+        system = ow.build(turbine, "coupled_springs", ow.StillWater())
+        modes = ow.modes(system)
+        frequency.append(modes.frequency_hz[modes.index("FA2")])
+    assert 0.9 < frequency[1] / frequency[0] < 0.999
+
+
+def hydrodynamic_keys() -> list[str]:
+    """Every key of the hydrodynamics but the source."""
+    return [name for name in Hydrodynamics.model_fields if name != "source"]
 
 
 def test_case_of_the_docs(written: Path) -> None:

@@ -10,23 +10,31 @@ import numpy as np
 import pytest
 from helpers.numerics import relative_difference
 from helpers.point_loads import EveryKind
+from helpers.waters import RegularWater
 
 import offwind_pin as ow
-from offwind_pin.dynamics.sea import added_mass, water_load
+from offwind_pin.dynamics.water_loads import Waters, contents
+from offwind_pin.dynamics.wind_loads import tower_drag
+from offwind_pin.loads.added_mass import AddedMass, SplashAddedMass
+from offwind_pin.loads.buoyancy import Buoyancy
 from offwind_pin.loads.dashpots import NO_DASHPOT, Dashpot
 from offwind_pin.loads.frictional_moment import FrictionalMoment
 from offwind_pin.loads.hysteretic import HystereticSprings
-from offwind_pin.loads.morison import AddedMass, MorisonForce
+from offwind_pin.loads.morison import MorisonForce
 from offwind_pin.loads.pile_soil import pile_nodes
 from offwind_pin.loads.points import KernelLoad, PointMotion, PointTangents, nothing_stored
 from offwind_pin.loads.python_load import PythonLoad
 from offwind_pin.loads.rotor_thrust import Control, RotorThrust
 from offwind_pin.loads.soil import LATERAL, ROCKING, TORSIONAL, VERTICAL, Direction, SoilSprings
 from offwind_pin.loads.soil_curves import soil_curves, tanh_curves
+from offwind_pin.loads.strips import Strips, strips_up_to
+from offwind_pin.loads.tower_drag import TowerDrag, TowerWind
 from offwind_pin.loads.tower_top import TowerTopLoad
 from offwind_pin.loads.wind_history import WindHistory
+from offwind_pin.loads.wind_profile import ExtremeOperatingGust, PowerLaw
 from offwind_pin.turbines.base import Array
 from offwind_pin.turbines.depth_profile import DepthLine
+from offwind_pin.turbines.hydrodynamics import FloodedPile
 from offwind_pin.turbines.rotor_disc import rotor_disc
 from offwind_pin.turbines.soil import CurveTable, LinearModulus
 
@@ -99,15 +107,53 @@ def friction(oc6: ow.Turbine, folder: Path) -> FrictionalMoment:
 
 
 def waves(oc6: ow.Turbine, folder: Path) -> MorisonForce:
-    return water_load(oc6, ow.IrregularWaves(2.0, 6.0, seed=2, repeat_period=60.0))
+    return Waters.of(oc6, ow.IrregularWaves(2.0, 6.0, seed=2, repeat_period=60.0)).wave_force()
 
 
 def still_water(oc6: ow.Turbine, folder: Path) -> MorisonForce:
-    return water_load(oc6, ow.StillWater())
+    return Waters.of(oc6, ow.StillWater()).wave_force()
 
 
 def moving_water(oc6: ow.Turbine, folder: Path) -> AddedMass:
-    return added_mass(oc6)
+    return Waters.of(oc6, ow.StillWater()).permanent_added_mass()
+
+
+def splashed(oc6: ow.Turbine) -> tuple[Strips, RegularWater]:
+    """Strips through the splash zone of a wave 3 m high whose surface lies amid a strip."""
+    height, length, wet = strips_up_to(-6.0, 4.0, still=0.0, lowest=-3.0, highest=3.0)
+    water = RegularWater(height, -oc6.site.mudline, 3.0, 0.7, 0.05, stretched=True)
+    return Strips(height, length, np.full(len(height), 9.0), wet), water
+
+
+def splashing(oc6: ow.Turbine, folder: Path) -> MorisonForce:
+    strips, water = splashed(oc6)
+    return MorisonForce(strips, water, 1025.0, 1.0, 1.0)
+
+
+def splash_added_mass(oc6: ow.Turbine, folder: Path) -> SplashAddedMass:
+    strips, water = splashed(oc6)
+    return SplashAddedMass(strips, 1025.0 * strips.volume, water)
+
+
+def buoyancy(oc6: ow.Turbine, folder: Path) -> Buoyancy:
+    strips, water = splashed(oc6)
+    return Buoyancy(strips, 1e4, 63.6, 0.0, water)
+
+
+def water_inside(oc6: ow.Turbine, folder: Path) -> KernelLoad:
+    return contents(oc6, FloodedPile(kind="flooded", level=-1.0))[0]
+
+
+def pressure_inside(oc6: ow.Turbine, folder: Path) -> KernelLoad:
+    wet = oc6.hydrodynamics.model_copy(update={"buoyancy": True})
+    turbine = oc6.model_copy(update={"hydrodynamics": wet})
+    return contents(turbine, FloodedPile(kind="flooded", level=-1.0))[1]
+
+
+def wind(oc6: ow.Turbine, folder: Path) -> TowerDrag:
+    gust = ExtremeOperatingGust(8.0, start=0.0)
+    blowing = TowerWind(20.0, 100.0, PowerLaw(0.14), 0.7, direction=0.5, gust=gust)
+    return tower_drag(ow.build(oc6, "clamped", elements=12), blowing)
 
 
 def tower_top(oc6: ow.Turbine, folder: Path) -> TowerTopLoad:
@@ -147,8 +193,11 @@ EXAMPLES: dict[type[KernelLoad], dict[str, Maker]] = {
         "soil sliding in torsion": sliding(TORSIONAL, 0.02),
     },
     FrictionalMoment: {"friction": friction},
-    MorisonForce: {"waves": waves, "still water": still_water},
-    AddedMass: {"added mass": moving_water},
+    MorisonForce: {"waves": waves, "still water": still_water, "splashing": splashing},
+    AddedMass: {"added mass": moving_water, "water inside": water_inside},
+    TowerDrag: {"wind": wind},
+    SplashAddedMass: {"splash added mass": splash_added_mass},
+    Buoyancy: {"buoyancy": buoyancy, "pressure inside": pressure_inside},
     TowerTopLoad: {"tower top": tower_top},
     RotorThrust: {
         "rotor below rated": running_rotor(8.4, "lagged"),
@@ -281,7 +330,13 @@ def depends_on(name: str) -> set[str]:
     return {
         "waves": {"damping", "turning"},
         "still water": {"damping", "turning"},
+        "splashing": {"damping", "turning"},
+        "wind": {"damping", "turning"},
         "added mass": {"inertia", "turning"},
+        "water inside": {"inertia", "turning"},
+        "splash added mass": {"inertia", "turning"},
+        "buoyancy": {"turning"},
+        "pressure inside": {"turning"},
         "tower top": set[str](),
         "friction": {"moment_coupling", "moment_stiffness"},
         "written in Python": {"stiffness", "damping", "inertia", "turning"},
@@ -428,6 +483,11 @@ def test_other_loads_store_nothing(oc6: ow.Turbine, tmp_path: Path) -> None:
     assert others - sliding - rotors == {
         "waves",
         "still water",
+        "splashing",
+        "wind",
+        "splash added mass",
+        "buoyancy",
+        "pressure inside",
         "tower top",
         "written in Python",
         "friction",

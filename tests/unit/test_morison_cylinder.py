@@ -5,10 +5,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 from helpers.numerics import fitted_order
+from helpers.waters import RegularWater, SteadyWater, upright
 
-from offwind_pin.loads.morison import AddedMass, MorisonForce, Strips
+from offwind_pin.loads.added_mass import AddedMass
+from offwind_pin.loads.morison import MorisonForce
 from offwind_pin.loads.points import PointMotion
-from offwind_pin.loads.waves import IrregularSea, wave_number
+from offwind_pin.loads.strips import Strips
+from offwind_pin.loads.waves import wave_number
 from offwind_pin.turbines.base import Array
 
 DEPTH, GRAVITY, DENSITY, DIAMETER = 30.0, 9.80665, 1025.0, 9.0
@@ -17,7 +20,6 @@ ADDED, DRAG = 0.9, 1.1
 OMEGA = 2 * np.pi * FREQUENCY
 K = float(wave_number(np.array([OMEGA]), DEPTH, GRAVITY)[0])
 KH = K * DEPTH
-SEA = IrregularSea(np.array([AMPLITUDE]), np.array([FREQUENCY]), np.array([0.0]), DEPTH, GRAVITY)
 
 
 @dataclass(frozen=True)
@@ -51,15 +53,12 @@ def cylinder(strips: int) -> MorisonForce:
     edges = np.linspace(-DEPTH, 0.0, strips + 1)
     height, length = (edges[:-1] + edges[1:]) / 2, np.diff(edges)
     parts = Strips(height, length, np.full(strips, DIAMETER))
-    return MorisonForce(parts, SEA.kinematics_at(height), DENSITY, ADDED, DRAG)
+    wave = RegularWater(height, DEPTH, AMPLITUDE, OMEGA, K)
+    return MorisonForce(parts, wave, DENSITY, ADDED, DRAG)
 
 
 def at_rest(load: MorisonForce, velocity: float = 0.0) -> PointMotion:
-    n = len(load.height)
-    place = np.zeros((n, 3))
-    place[:, 2] = load.height
-    moving = np.tile([velocity, 0.0, 0.0], (n, 1))
-    return PointMotion(place, np.zeros((n, 3)), moving, np.tile([0.0, 0.0, 1.0], (n, 1)))
+    return upright(load.height, velocity)
 
 
 def wrench(load: MorisonForce, time: float) -> Wrench:
@@ -109,18 +108,14 @@ def test_shipped_strips(oc6) -> None:
 
 def test_drag_is_on_the_relative_velocity() -> None:
     """A cylinder that moves with v in still water is braked by rho/2 Cd D |v| v per length."""
-    still = IrregularSea(*np.zeros((3, 0)), DEPTH, GRAVITY)
-    load = cylinder(30)
-    load = MorisonForce(load.strips, still.kinematics_at(load.height), DENSITY, ADDED, DRAG)
+    load = MorisonForce(cylinder(30).strips, SteadyWater(30), DENSITY, ADDED, DRAG)
     force = load.forces(0.0, at_rest(load, velocity=0.7), 1.0).force[:, 0].sum()
     assert force == pytest.approx(-0.5 * DENSITY * DRAG * DIAMETER * DEPTH * 0.7**2, rel=1e-13)
 
 
 def test_drag_makes_heat() -> None:
     """In still water the heat is the work done against the drag, rho/2 Cd D |v|^3 per length."""
-    still = IrregularSea(*np.zeros((3, 0)), DEPTH, GRAVITY)
-    load = cylinder(30)
-    load = MorisonForce(load.strips, still.kinematics_at(load.height), DENSITY, ADDED, DRAG)
+    load = MorisonForce(cylinder(30).strips, SteadyWater(30), DENSITY, ADDED, DRAG)
     heat = load.forces(0.0, at_rest(load, velocity=-0.7), 1.0).dissipation
     assert heat == pytest.approx(0.5 * DENSITY * DRAG * DIAMETER * DEPTH * 0.7**3, rel=1e-13)
 

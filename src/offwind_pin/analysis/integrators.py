@@ -247,7 +247,7 @@ class SciPyIVP:
             q, v = y[:n], y[n:]
             a = equations.acceleration(time, q, v)
             stiffness, damping = equations.tangents(time, q, v, a)
-            by_state = -np.linalg.solve(equations.mass(q), np.hstack([stiffness, damping]))
+            by_state = -np.linalg.solve(equations.mass(q, time), np.hstack([stiffness, damping]))
             return np.vstack([np.hstack([np.zeros((n, n)), np.eye(n)]), by_state])
 
         solution = solve_ivp(

@@ -18,8 +18,8 @@ import pinocchio as pin
 
 from offwind_pin.dynamics.kinematics import AxisPoints, ChainMotion
 from offwind_pin.dynamics.restraints import KernelRestraint, as_kernel_restraint
-from offwind_pin.dynamics.sea import added_mass, water_load
 from offwind_pin.dynamics.system import System
+from offwind_pin.dynamics.water_loads import water_loads
 from offwind_pin.errors import InputError
 from offwind_pin.loads.points import (
     MOMENT_BY_POSITION,
@@ -95,16 +95,18 @@ class Equations:
             balance[:6] += self._root.reaction(q[:6], v[:6], self._memory[-1])
         return balance
 
-    def mass(self, q: Array) -> Array:
-        """(nv, nv) mass matrix dr/da with the added mass."""
+    def mass(self, q: Array, time: float | None = None) -> Array:
+        """(nv, nv) mass matrix dr/da with the added mass; in still water unless a time is given."""
         upper = np.triu(pin.crba(self._model, self._data, q))
         total = upper + np.triu(upper, 1).T
         motion = self.chain_motion(q, np.zeros_like(q))
         points = motion.points(self.points)
+        now = 0.0 if time is None else time
+        rise = 0.0 if time is None else float(smooth_ramp(np.array(time), self.ramp_time))
         for load, part, past in zip(self.loads, self._parts, self._memory[:-1], strict=True):
             if isinstance(load, KernelLoad) and not load.inertial:
                 continue
-            tangents = load.tangents(0.0, points[part], 0.0, **as_argument(load, past))
+            tangents = load.tangents(now, points[part], rise, **as_argument(load, past))
             moved = motion.derivatives(self.points[part], points[part]).position
             change = np.einsum("nij,njk->nik", tangents.inertia, moved)
             total -= np.tensordot(moved, change, axes=([0, 1], [0, 1]))
@@ -128,7 +130,7 @@ class Equations:
     def acceleration(self, time: float, q: Array, v: Array) -> Array:
         """(nv,) acceleration that satisfies the equations."""
         lack = self.residual(time, q, v, np.zeros_like(q))
-        return np.asarray(-np.linalg.solve(self.mass(q), lack))
+        return np.asarray(-np.linalg.solve(self.mass(q, time), lack))
 
     def evaluate(self, time: float, q: Array, v: Array, a: Array) -> Evaluation:
         """Motion of the chain and of the loaded points, and every point force."""
@@ -205,10 +207,8 @@ def all_loads(system: System, loads: Sequence[PointLoad]) -> list[PointLoad]:
     ------
     InputError : a load beside the structure
     """
-    water: list[PointLoad] = []
-    if system.sea is not None:
-        water = [added_mass(system.turbine), water_load(system.turbine, system.sea)]
-    everything = [*water, *system.foundation.soil, *loads]
+    water = [] if system.sea is None else water_loads(system.turbine, system.sea)
+    everything: list[PointLoad] = [*water, *system.foundation.soil, *loads]
     for load in everything:
         highest = system.chain.top + _REACH
         outside = (load.height < system.chain.base) | (load.height > highest)

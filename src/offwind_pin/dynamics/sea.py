@@ -7,9 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from offwind_pin.errors import InputError
-from offwind_pin.loads.morison import AddedMass, MorisonForce, Strips
 from offwind_pin.loads.waves import IrregularSea
-from offwind_pin.structure.section import outer_diameter
 from offwind_pin.turbines.definition import Turbine
 
 
@@ -57,29 +55,3 @@ class IrregularWaves:
 
 
 Sea = StillWater | IrregularWaves
-
-
-def wetted_strips(turbine: Turbine) -> Strips:
-    """Strips from the mudline to still water level, or to the yaw bearing where that is lower."""
-    height, length = Strips.between(turbine.site.mudline, min(0.0, turbine.yaw_bearing))
-    return Strips(height, length, outer_diameter(turbine, height))
-
-
-def added_mass(turbine: Turbine) -> AddedMass:
-    return AddedMass.of(
-        wetted_strips(turbine),
-        turbine.site.water_density,
-        turbine.hydrodynamics.added_mass_coefficient,
-    )
-
-
-def water_load(turbine: Turbine, sea: Sea) -> MorisonForce:
-    """Force of the water on the strips: waves, if there are any, and drag."""
-    strips = wetted_strips(turbine)
-    return MorisonForce(
-        strips,
-        sea.realise(turbine).kinematics_at(strips.height),
-        turbine.site.water_density,
-        turbine.hydrodynamics.added_mass_coefficient,
-        turbine.hydrodynamics.drag_coefficient,
-    )

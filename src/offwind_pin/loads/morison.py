@@ -7,170 +7,81 @@ from functools import cached_property
 
 import numpy as np
 
-from offwind_pin.compiled import kernel
-from offwind_pin.loads.points import (
-    KernelLoad,
-    energy_kernel,
-    force_kernel,
-    tangent_kernel,
-)
-from offwind_pin.loads.waves import WaveKinematics
+from offwind_pin.loads.added_mass import along
+from offwind_pin.loads.points import KernelLoad, force_kernel, tangent_kernel
+from offwind_pin.loads.strips import Strips, Water, wet_share
 from offwind_pin.turbines.base import Array
 
-STRIP_LENGTH = 0.5
-"""Longest strip in m: the force of a wave 6.5 m long is met within 1 %, of longer ones better."""
-
-
-@dataclass(frozen=True, eq=False)
-class Strips:
-    """Wetted strips from the mudline to the mean water line.
-
-    height (n,) of the strip centres in m, length (n,) in m, diameter (n,) in m.
-    """
-
-    height: Array
-    length: Array
-    diameter: Array
-
-    @staticmethod
-    def between(mudline: float, water_line: float) -> tuple[Array, Array]:
-        """Heights of the centres and lengths of equal strips."""
-        count = int(np.ceil((water_line - mudline) / STRIP_LENGTH))
-        edges = np.linspace(mudline, water_line, count + 1)
-        return (edges[:-1] + edges[1:]) / 2, np.diff(edges)
-
-
-@kernel
-def _along(a: Array, b: Array) -> float:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+_INERTIA, _DRAG, _BOTTOM, _LENGTH = range(4)
+"""Columns of a strip's constants: rho (1 + Ca) V in kg, rho/2 Cd D l in kg/m, its ends in m."""
 
 
 @force_kernel
-def _added_mass_forces(
+def morison_forces(
     motion: Array, constants: Array, row: Array, memory: Array, force: Array
 ) -> float:
-    for i in range(len(motion)):
-        axis, acceleration = motion[i, 9:12], motion[i, 12:15]
-        along = _along(axis, acceleration)
-        for j in range(3):
-            force[i, j] = -constants[i, 0] * (acceleration[j] - along * axis[j])
-            force[i, 3 + j] = 0.0
-    return 0.0
+    """Of strips in a fluid: water or, with nothing but drag, wind.
 
-
-@tangent_kernel
-def _added_mass_tangents(
-    motion: Array, constants: Array, row: Array, memory: Array, blocks: Array
-) -> None:
-    for i in range(len(motion)):
-        axis, acceleration, mass = motion[i, 9:12], motion[i, 12:15], constants[i, 0]
-        along = _along(axis, acceleration)
-        for j in range(3):
-            for k in range(3):
-                blocks[i, 2, j, k] = mass * axis[j] * axis[k]
-                blocks[i, 3, j, k] = mass * axis[j] * acceleration[k]
-            blocks[i, 2, j, j] -= mass
-            blocks[i, 3, j, j] += mass * along
-
-
-@energy_kernel
-def _added_mass_energy(motion: Array, constants: Array, memory: Array) -> float:
-    energy = 0.0
-    for i in range(len(motion)):
-        axis, velocity = motion[i, 9:12], motion[i, 6:9]
-        square = _along(velocity, velocity) - _along(velocity, axis) ** 2
-        energy += constants[i, 0] * square / 2
-    return energy
-
-
-@dataclass(frozen=True, eq=False)
-class AddedMass(KernelLoad):
-    """Mass per strip of the water that moves with the structure, rho Ca pi D^2/4 l, in kg.
-
-    It acts normal to the axis and belongs to the mass matrix: its force is in the equations with
-    the accelerations, and what it stores is kinetic energy.
+    row (1 + 6 n) is the surface in m, velocity (n, 3) in m/s and acceleration (n, 3) in m/s2.
     """
-
-    height: Array
-    mass: Array
-    name: str = "added_mass"
-
-    inertial = True
-    force_kernel = _added_mass_forces
-    tangent_kernel = _added_mass_tangents
-    energy_kernel = _added_mass_energy
-
-    @staticmethod
-    def of(strips: Strips, density: float, coefficient: float) -> AddedMass:
-        return AddedMass(strips.height, density * coefficient * displaced_volume(strips))
-
-    @cached_property
-    def constants(self) -> Array:
-        return self.mass[:, None].copy()
-
-
-_INERTIA, _DRAG = 0, 1
-"""Columns of a strip's constants: rho (1 + Ca) V in kg, and rho/2 Cd D l in kg/m."""
-
-
-@force_kernel
-def _morison_forces(
-    motion: Array, constants: Array, row: Array, memory: Array, force: Array
-) -> float:
     n = len(motion)
-    water = row.reshape(2, n, 3)
+    fluid = row[1:].reshape(2, n, 3)
     relative, accelerated = np.empty(3), np.empty(3)
     lost = 0.0
     for i in range(n):
         axis = motion[i, 9:12]
         for j in range(3):
-            relative[j] = water[0, i, j] - motion[i, 6 + j]
-            accelerated[j] = water[1, i, j]
-        slip, slide = _along(relative, axis), _along(accelerated, axis)
+            relative[j] = fluid[0, i, j] - motion[i, 6 + j]
+            accelerated[j] = fluid[1, i, j]
+        slip, slide = along(relative, axis), along(accelerated, axis)
         for j in range(3):
             relative[j] -= slip * axis[j]
             accelerated[j] -= slide * axis[j]
-        speed = np.sqrt(_along(relative, relative))
+        speed = np.sqrt(along(relative, relative))
+        share = wet_share(row[0], constants[i, _BOTTOM], constants[i, _LENGTH])
+        inertia, braking = share * constants[i, _INERTIA], share * constants[i, _DRAG]
         for j in range(3):
-            drag = constants[i, _DRAG] * speed * relative[j]
-            force[i, j] = constants[i, _INERTIA] * accelerated[j] + drag
+            drag = braking * speed * relative[j]
+            force[i, j] = inertia * accelerated[j] + drag
             force[i, 3 + j] = 0.0
-        lost += constants[i, _DRAG] * speed**3
+        lost += braking * speed**3
     return lost
 
 
 @tangent_kernel
-def _morison_tangents(
+def morison_tangents(
     motion: Array, constants: Array, row: Array, memory: Array, blocks: Array
 ) -> None:
     """d(|w| w)/dw = |w| I + w w' / |w|, and w = P (u_w - v) with P = I - e e' of the axis e."""
     n = len(motion)
-    water = row.reshape(2, n, 3)
+    fluid = row[1:].reshape(2, n, 3)
     slip, w = np.empty(3), np.empty(3)
     by_w, projector = np.empty((3, 3)), np.empty((3, 3))
     for i in range(n):
         axis = motion[i, 9:12]
+        share = wet_share(row[0], constants[i, _BOTTOM], constants[i, _LENGTH])
+        inertia, braking = share * constants[i, _INERTIA], share * constants[i, _DRAG]
         for j in range(3):
-            slip[j] = water[0, i, j] - motion[i, 6 + j]
-        along = _along(slip, axis)
-        pushed = _along(water[1, i], axis)
+            slip[j] = fluid[0, i, j] - motion[i, 6 + j]
+        slide = along(slip, axis)
+        pushed = along(fluid[1, i], axis)
         for j in range(3):
-            w[j] = slip[j] - along * axis[j]
+            w[j] = slip[j] - slide * axis[j]
             for k in range(3):
                 projector[j, k] = (1.0 if j == k else 0.0) - axis[j] * axis[k]
-        speed = np.sqrt(_along(w, w))
+        speed = np.sqrt(along(w, w))
         for j in range(3):
             for k in range(3):
                 outer = w[j] * w[k] / speed if speed > 0 else 0.0
-                by_w[j, k] = constants[i, _DRAG] * (outer + (speed if j == k else 0.0))
+                by_w[j, k] = braking * (outer + (speed if j == k else 0.0))
         for j in range(3):
             for k in range(3):
                 for m in range(3):
-                    turned = axis[m] * slip[k] + (along if m == k else 0.0)
+                    turned = axis[m] * slip[k] + (slide if m == k else 0.0)
                     blocks[i, 1, j, k] -= by_w[j, m] * projector[m, k]
                     blocks[i, 3, j, k] -= by_w[j, m] * turned
-                turned = axis[j] * water[1, i, k] + (pushed if j == k else 0.0)
-                blocks[i, 3, j, k] -= constants[i, _INERTIA] * turned
+                turned = axis[j] * fluid[1, i, k] + (pushed if j == k else 0.0)
+                blocks[i, 3, j, k] -= inertia * turned
 
 
 @dataclass(frozen=True, eq=False)
@@ -178,18 +89,19 @@ class MorisonForce(KernelLoad):
     """Fluid inertia and drag of a wave on strips; the added mass stands in the mass matrix.
 
     F = rho (1 + Ca) V a_w + rho/2 Cd D l |w| w per strip, with w the relative velocity and a_w the
-    water's acceleration, both taken normal to the axis (Rahman et al., MECC 2025, Eq. 8).
+    water's acceleration, both taken normal to the axis (Rahman et al., MECC 2025, Eq. 8). Both
+    parts are those of the wet share of a strip. A coefficient is one number or one a strip.
     """
 
     strips: Strips
-    kinematics: WaveKinematics
+    water: Water
     density: float
-    added_mass_coefficient: float
-    drag_coefficient: float
+    added_mass_coefficient: float | Array
+    drag_coefficient: float | Array
     name: str = "waves"
 
-    force_kernel = _morison_forces
-    tangent_kernel = _morison_tangents
+    force_kernel = morison_forces
+    tangent_kernel = morison_tangents
 
     @property
     def height(self) -> Array:
@@ -197,17 +109,11 @@ class MorisonForce(KernelLoad):
 
     @cached_property
     def constants(self) -> Array:
-        inertia = self.density * (1 + self.added_mass_coefficient) * displaced_volume(self.strips)
+        inertia = self.density * (1 + self.added_mass_coefficient) * self.strips.volume
         area = self.strips.diameter * self.strips.length
-        return np.column_stack([inertia, 0.5 * self.density * self.drag_coefficient * area])
+        drag = 0.5 * self.density * self.drag_coefficient * area
+        return np.column_stack([inertia, drag, self.strips.ends])
 
     def rows(self, time: Array, rise: Array) -> Array:
-        """(t, 6 n) velocity and acceleration of the water at the strips."""
-        if len(self.kinematics.omega) == 0:
-            return np.zeros((len(time), 6 * len(self.height)))
-        return rise[:, None] * self.kinematics.at_times(time).reshape(len(time), -1)
-
-
-def displaced_volume(strips: Strips) -> Array:
-    """(n,) volume of each strip in m3."""
-    return np.pi / 4 * strips.diameter**2 * strips.length
+        """(t, 1 + 6 n) surface, and velocity and acceleration of the water at the strips."""
+        return self.water.rows(time, rise)

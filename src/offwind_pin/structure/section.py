@@ -32,6 +32,21 @@ def outer_diameter(turbine: Turbine, z: Array) -> Array:
     return diameter
 
 
+def wetted_diameter(turbine: Turbine, z: Array) -> Array:
+    """Outer diameter in m at heights z, marine growth included."""
+    return outer_diameter(turbine, z) + 2 * turbine.hydrodynamics.growth_at(z)
+
+
+def inner_diameter(turbine: Turbine, z: Array) -> Array:
+    """Inner diameter in m at heights z; at a jump, that of the part above."""
+    diameter = np.empty_like(z)
+    for member in turbine.members:
+        inside = (z >= member.bottom) & (z <= member.top)
+        outer, thickness = diameter_and_thickness(member, z[inside])
+        diameter[inside] = outer - 2 * thickness
+    return diameter
+
+
 def pieces(turbine: Turbine, low: float, high: float) -> Iterator[tuple[float, float, Member]]:
     """Intervals between low and high within which every section dimension is linear in z."""
     for member in turbine.members:
@@ -55,12 +70,32 @@ def frusta(turbine: Turbine, low: float, high: float) -> list[tuple[float, Frust
     return result
 
 
+def growth(turbine: Turbine, low: float, high: float) -> list[tuple[float, Frustum]]:
+    """Marine growth in the interval: hollow frusta outside the wall, as :func:`frusta` gives."""
+    result = []
+    for layer in turbine.hydrodynamics.marine_growth:
+        bottom, top = max(low, layer.bottom, turbine.site.mudline), min(high, layer.top)
+        for base, shell in frusta(turbine, bottom, top):
+            low_radius, high_radius = shell.outer_bottom, shell.outer_top
+            ring = Frustum(
+                shell.height,
+                low_radius + layer.thickness,
+                high_radius + layer.thickness,
+                low_radius,
+                high_radius,
+                layer.density,
+            )
+            result.append((base, ring))
+    return result
+
+
 def lump(turbine: Turbine, low: float, high: float) -> AxialBody:
-    """Rigid body of everything between two heights, point masses included.
+    """Rigid body of everything between two heights, marine growth and point masses included.
 
     A point mass counts where low <= z < high; one at the yaw bearing belongs to the last interval.
     """
     parts = [frustum.lump(base) for base, frustum in frusta(turbine, low, high)]
+    parts += [layer.lump(base) for base, layer in growth(turbine, low, high)]
     for mass in turbine.point_masses:
         if low <= mass.z < high or mass.z == high == turbine.yaw_bearing:
             transverse = (mass.inertia[0] + mass.inertia[1]) / 2

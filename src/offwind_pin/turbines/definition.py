@@ -13,10 +13,10 @@ import numpy as np
 from pydantic import Field, model_validator
 
 from offwind_pin.turbines.base import Definition, NonNegative, Number, Positive, Vector3
+from offwind_pin.turbines.hydrodynamics import Height, Hydrodynamics
 from offwind_pin.turbines.rotor_aerodynamics import GEOMETRY, Rotor
 from offwind_pin.turbines.soil import Soil
 
-Height = Annotated[Number, Field(ge=-1000, le=1000)]
 Angle = Annotated[Number, Field(ge=-30, le=30)]
 
 _KEPT_NAMES = {"base", "mono", "pile", "rna", "root", "world"}
@@ -208,13 +208,6 @@ class Site(Definition):
         return -(self.water_depth + self.scour_depth)
 
 
-class Hydrodynamics(Definition):
-    """Morison coefficients, constant over depth."""
-
-    added_mass_coefficient: Annotated[NonNegative, Field(le=10)]
-    drag_coefficient: Annotated[NonNegative, Field(le=10)]
-
-
 class DampingCalibration(Definition):
     """Structural damping: the ratios that modes of the supported structure shall reach."""
 
@@ -276,6 +269,7 @@ class Turbine(Definition):
                     f"point mass {mass.name!r} at z_m = {mass.z} is off the structure, which runs "
                     f"from {self.toe} to {self.yaw_bearing} m"
                 )
+        self.hydrodynamics.check_fits(self.site.mudline, self.yaw_bearing)
         return self
 
     @model_validator(mode="after")
