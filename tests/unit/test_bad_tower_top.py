@@ -151,7 +151,6 @@ ROTOR_FAULTS: dict[str, tuple[dict[str, Any], Change, list[str]]] = {
         lambda rotor: rotor.update(overhang_m=-5.0),
         ["overhang", "rna gives already"],
     ),
-    "geometry missing": (RIGID, lambda rotor: rotor.pop("shaft_tilt_deg"), ["shaft_tilt_deg"]),
     "air in g/m3": (
         SHIPPED,
         lambda rotor: rotor.update(air_density_kg_per_m3=1225.0),
@@ -177,6 +176,15 @@ def test_rotor_fault(fault: str, tmp_path: Path) -> None:
         ow.load_turbine(path)
     assert "rotor" in str(caught.value)
     assert all(word in str(caught.value) for word in told), str(caught.value)
+
+
+def test_rotor_without_its_place(folder: Path) -> None:
+    """A rigid body tells nothing of its rotor: what lacks is named where the rotor is needed."""
+    data = yaml.safe_load(yaml.safe_dump(RIGID))
+    del data["rotor"]["shaft_tilt_deg"], data["rotor"]["blades"]
+    (folder / "rigid.yaml").write_text(yaml.safe_dump(data))
+    with pytest.raises(ow.InputError, match="no blades, shaft_tilt_deg"):
+        run(folder, turbine="rigid.yaml", tower_top_load=ROTOR)
 
 
 def test_turbine_without_a_rotor(folder: Path) -> None:

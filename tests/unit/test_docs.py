@@ -105,7 +105,7 @@ def test_hydrodynamics_of_the_docs(written: Path) -> None:
     path = written / "my_turbine.yaml"
     bare = ow.load_turbine(path)
     data = yaml.safe_load(path.read_text())
-    data |= yaml.safe_load(_blocks("docs/turbine_file.md", "yaml")[2])
+    data |= yaml.safe_load(_blocks("docs/turbine_file.md", "yaml")[3])
     path.write_text(yaml.safe_dump(data))
     full = ow.load_turbine(path)
     assert set(data["hydrodynamics"]) == set(hydrodynamic_keys())

@@ -152,8 +152,8 @@ def test_public_names() -> None:
         "simulate",
         "soil_overview",
         "static",
-        "tower_drag",
         "thrust_curve",
+        "tower_drag",
         "write_soil",
     ]
     assert all(hasattr(offwind_pin, name) for name in offwind_pin.__all__)

@@ -273,19 +273,11 @@ class Turbine(Definition):
         return self
 
     @model_validator(mode="after")
-    def _rotor_is_placed(self) -> Turbine:
-        if self.rotor is None:
+    def _rotor_is_placed_once(self) -> Turbine:
+        if self.rotor is None or isinstance(self.rna, RigidBodyRNA):
             return self
         given = [name for name in GEOMETRY if getattr(self.rotor, name) is not None]
-        if isinstance(self.rna, RigidBodyRNA):
-            keys = {name: Rotor.model_fields[name].alias or name for name in GEOMETRY}
-            missing = [keys[name] for name in GEOMETRY if name not in given]
-            if missing:
-                raise ValueError(
-                    f"rotor lacks {', '.join(missing)}, which an rna of kind rigid_body does not "
-                    "tell; add them"
-                )
-        elif given not in ([], ["radius"]):
+        if given not in ([], ["radius"]):
             raise ValueError(
                 f"rotor gives {', '.join(given)}, which rna gives already; keep radius_m at most"
             )

@@ -9,7 +9,7 @@ import numpy as np
 from offwind_pin.errors import InputError
 from offwind_pin.turbines.definition import RotorNacelleRNA, Turbine
 from offwind_pin.turbines.rna import rotor_radius
-from offwind_pin.turbines.rotor_aerodynamics import Rotor
+from offwind_pin.turbines.rotor_aerodynamics import GEOMETRY, Rotor
 
 
 @dataclass(frozen=True)
@@ -70,7 +70,7 @@ def rotor_disc(turbine: Turbine) -> RotorDisc:
 
     Raises
     ------
-    InputError : the turbine has no block ``rotor``
+    InputError : the turbine has no block ``rotor``, or one that does not tell where the rotor is
     """
     rotor, rna = turbine.rotor, turbine.rna
     if rotor is None:
@@ -80,12 +80,24 @@ def rotor_disc(turbine: Turbine) -> RotorDisc:
             "a block with thrust_coefficient and rated_wind_speed_m_per_s",
             "Add it, see docs/turbine_file.md, or give a tower-top load file.",
         )
-    given: RotorNacelleRNA | Rotor = rna if isinstance(rna, RotorNacelleRNA) else rotor
-    # A rigid body's rotor has them all: the turbine was refused otherwise.
+    given: RotorNacelleRNA | Rotor = rotor
+    if isinstance(rna, RotorNacelleRNA):
+        given, radius = rna, rotor.radius or rotor_radius(rna)
+    else:
+        missing = [name for name in GEOMETRY if getattr(rotor, name) is None]
+        if missing or rotor.radius is None:
+            keys = [Rotor.model_fields[name].alias or name for name in missing]
+            raise InputError(
+                f"turbine {turbine.name}, field rotor",
+                f"no {', '.join(keys)}",
+                "all of them, where rna is of kind rigid_body and does not tell",
+                "Add them, or give rotor and nacelle inputs.",
+            )
+        radius = rotor.radius
     return RotorDisc(
         rotor=rotor,
         blades=int(given.blades or 0),
-        radius=rotor.radius or rotor_radius(rna),  # type: ignore[arg-type]
+        radius=radius,
         overhang=float(given.overhang or 0.0),
         tower_to_shaft=float(given.tower_to_shaft or 0.0),
         tilt=float(np.radians(given.shaft_tilt or 0.0)),
