@@ -99,7 +99,7 @@ def test_compiled_chain_and_pinocchio_agree(system: ow.System) -> None:
 
 def test_generalised_alpha_against_radau(system: ow.System) -> None:
     """Two integrators, of which one asks for the mass matrix at each time; a coarse chain."""
-    small = ow.build(system.turbine, "clamped", ow.StillWater(), elements=3)
+    small = ow.build(system.turbine, "clamped", system.sea, elements=3)
     radau = ow.SciPyIVP("Radau", relative_tolerance=1e-6, absolute_tolerance=1e-8)
     reference = ow.simulate(small, 4.0, 0.04, ramp=1.0, output_dt=0.2, integrator=radau)
     moment = reference["mudline_moment"].to_numpy()
