@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Literal, Protocol, get_args
+from typing import Literal, NamedTuple, Protocol, get_args
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from offwind_pin.compiled import kernel
@@ -21,6 +20,8 @@ _LEVELS = 96
 """Heights at which stretched profiles are known; they lie closest at the surface."""
 _ROUNDING = 1e-12
 """Profiles that hold less than this part of the largest are left out."""
+_BLOCK = 64
+"""Times for which stretched profiles are held in memory at once."""
 
 _VERTICAL, _EXTRAPOLATION, _WHEELER, _EXACT = range(4)
 _RULES = {"vertical": _VERTICAL, "extrapolation": _EXTRAPOLATION, "wheeler": _WHEELER}
@@ -156,34 +157,40 @@ class _Motion:
         acceleration = waves.acceleration(level)
         if inertia_factor is not None:
             acceleration = acceleration * inertia_factor(level + surface.level)
-        profiles, weights, self._parts = _few_profiles(velocity, acceleration)
+        self._parts, self._profiles, weights = _few_profiles(velocity, acceleration)
         self._sums = HarmonicSeries(waves.period, waves.harmonic, weights)
         self._level = level
-        self._profiles = profiles  # (p, l)
         if rule is not None:
-            self._spline = np.ascontiguousarray(CubicSpline(level, profiles.T).c.transpose(1, 2, 0))
+            self._splines = [_cubics(level, profiles) for profiles in self._profiles]
 
     def write(self, time: Array, rise: Array, elevation: Array, result: Array) -> None:
         """Add to (t, 6 n) velocities, then accelerations, both (n, 3), under surfaces (t,)."""
         sums = rise[:, None] * self._sums.at(time)
-        n = len(self._height)
         if self._rule is not None:
-            _stretched(
-                self._rule,
-                self._depth,
-                self._height,
-                elevation,
-                self._level,
-                self._spline,
-                sums,
-                self._parts,
-                result,
-            )
+            for first in range(0, len(time), _BLOCK):
+                block = slice(first, first + _BLOCK)
+                self._stretch(self._rule, sums[block], elevation[block], result[block])
             return
-        whole = result.reshape(len(time), 2, n, 3)
-        for quantity, axis, profile, column, count in self._parts:
-            profiles = self._profiles[profile : profile + count]
-            whole[:, quantity, :, axis] += sums[:, column : column + count] @ profiles
+        whole = result.reshape(len(time), 2, len(self._height), 3)
+        for part, profiles in zip(self._parts, self._profiles, strict=True):
+            whole[:, part.quantity, :, part.axis] += sums[:, part.sums] @ profiles
+
+    def _stretch(self, rule: int, sums: Array, elevation: Array, result: Array) -> None:
+        """The same for a few times, at heights that move with the surface."""
+        for part, spline in zip(self._parts, self._splines, strict=True):
+            cubics = (sums[:, part.sums] @ spline).reshape(len(sums), -1, 4)
+            place = 3 * len(self._height) * part.quantity + part.axis
+            _stretched(
+                rule, self._depth, self._height, elevation, self._level, cubics, place, result
+            )
+
+
+class _Part(NamedTuple):
+    """Which sums go with the profiles of one quantity (0 velocity, 1 acceleration) and axis."""
+
+    quantity: int
+    axis: int
+    sums: slice
 
 
 def _levels(depth: float, top: float) -> Array:
@@ -196,19 +203,23 @@ def _levels(depth: float, top: float) -> Array:
     return np.concatenate([below, np.linspace(0, top, max(2, _LEVELS // 2))[1:]])
 
 
+def _cubics(level: Array, profiles: Array) -> Array:
+    """(r, 4 (l - 1)) coefficients of the cubics between levels of profiles (r, l)."""
+    coefficients = CubicSpline(level, profiles, axis=1).c  # (4, l - 1, r)
+    return np.ascontiguousarray(coefficients.transpose(2, 1, 0)).reshape(len(profiles), -1)
+
+
 def _few_profiles(
     velocity: ComplexArray, acceleration: ComplexArray
-) -> tuple[Array, ComplexArray, NDArray[np.intp]]:
-    """Profiles (p, l) over height, weights (c, m), and parts (k, 5) that put them together.
+) -> tuple[list[_Part], list[Array], ComplexArray]:
+    """Parts, profiles (r, l) of each over height, and weights (c, m) of all their sums.
 
-    A part says of which quantity (0 velocity, 1 acceleration) and axis it is, which profiles it
-    begins with, which sums, and how many. Directions without motion have none; both horizontal ones
-    share their profiles.
+    Directions without motion have no part; both horizontal ones have the same profiles.
     """
+    parts: list[_Part] = []
     profiles: list[Array] = []
-    weights: list[ComplexArray] = []
-    parts = []
-    first = column = 0
+    weights = [np.zeros((0, velocity.shape[2]), dtype=complex)]
+    column = 0
     for quantity, field in enumerate((velocity, acceleration)):
         for axes in ((0, 1), (2,)):
             moving = [axis for axis in axes if np.any(field[axis])]
@@ -217,14 +228,10 @@ def _few_profiles(
             found = _profiles(np.hstack([field[axis] for axis in moving]))
             for axis in moving:
                 weights.append(found @ field[axis])
-                parts.append((quantity, axis, first, column, len(found)))
+                profiles.append(found)
+                parts.append(_Part(quantity, axis, slice(column, column + len(found))))
                 column += len(found)
-            profiles.append(found)
-            first += len(found)
-    if not parts:
-        harmonics, levels = velocity.shape[2], velocity.shape[1]
-        return np.zeros((0, levels)), np.zeros((0, harmonics), complex), np.zeros((0, 5), np.intp)
-    return np.vstack(profiles), np.vstack(weights), np.array(parts, dtype=np.intp)
+    return parts, profiles, np.vstack(weights)
 
 
 def _profiles(amplitude: ComplexArray) -> Array:
@@ -243,40 +250,31 @@ def _stretched(
     height: Array,
     elevation: Array,
     level: Array,
-    spline: Array,
-    sums: Array,
-    parts: NDArray[np.intp],
+    cubics: Array,
+    place: int,
     result: Array,
 ) -> None:
-    """Add motions under a moving surface: profiles (l - 1, p, 4) at heights that move with it."""
-    n = len(height)
-    profiles = spline.shape[1]
-    value = np.empty(profiles)
+    """Add motions under moving surfaces (t,), from cubics (t, l - 1, 4) between the levels (l,).
+
+    place : of the first strip's value in (t, 6 n); those of the next strips lie 3 on
+    """
     last = len(level) - 2
     for t in range(len(elevation)):
         interval = 0
-        for i in range(n):
-            z = height[i]
-            beyond = 0.0
+        for i in range(len(height)):
+            z, beyond = height[i], 0.0
             if rule == _WHEELER:
                 z = (z - elevation[t]) * depth / (depth + elevation[t])
-            if rule == _EXTRAPOLATION:
+            elif rule == _EXTRAPOLATION:
                 beyond = max(min(z, elevation[t]), 0.0)
             if rule != _EXACT:
                 z = min(z, 0.0)
             z = min(max(z, level[0]), level[last + 1])
-            if interval > last or level[interval] > z:
-                interval = 0
             while interval < last and level[interval + 1] < z:
                 interval += 1
             x = z - level[interval]
-            for p in range(profiles):
-                c = spline[interval, p]
-                value[p] = ((c[0] * x + c[1]) * x + c[2]) * x + c[3]
-                if beyond > 0:
-                    value[p] += beyond * ((3 * c[0] * x + 2 * c[1]) * x + c[2])
-            for k in range(len(parts)):
-                total = 0.0
-                for p in range(parts[k, 4]):
-                    total += value[parts[k, 2] + p] * sums[t, parts[k, 3] + p]
-                result[t, 3 * n * parts[k, 0] + 3 * i + parts[k, 1]] += total
+            c = cubics[t, interval]
+            value = ((c[0] * x + c[1]) * x + c[2]) * x + c[3]
+            if beyond > 0:
+                value += beyond * ((3 * c[0] * x + 2 * c[1]) * x + c[2])
+            result[t, place + 3 * i] += value
