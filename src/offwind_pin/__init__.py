@@ -22,10 +22,17 @@ from offwind_pin.analysis.transient import simulate
 from offwind_pin.campaign.export import export_urdf
 from offwind_pin.campaign.soil_files import write_soil
 from offwind_pin.campaign.soil_overview import SoilOverview, soil_overview
-from offwind_pin.dynamics.sea import IrregularWaves, RegularWaves, StillWater
+from offwind_pin.dynamics.sea import IrregularWaves, RegularWaves, StillWater, StreamWaves
 from offwind_pin.dynamics.system import System
 from offwind_pin.dynamics.wind_loads import tower_drag
 from offwind_pin.errors import InputError, InterruptedSimulation, OffwindError, SolverError
+from offwind_pin.loads.current import (
+    CurrentSum,
+    CurrentTable,
+    PowerLawCurrent,
+    SurfaceCurrent,
+    UniformCurrent,
+)
 from offwind_pin.loads.rotor_thrust import RotorThrust
 from offwind_pin.loads.rotor_turbulence import RotorWind
 from offwind_pin.loads.synthetic_wind import SyntheticWind
@@ -41,6 +48,8 @@ from offwind_pin.turbines.rotor_disc import rotor_disc
 __all__ = [
     "AdaptiveStep",
     "Condensation",
+    "CurrentSum",
+    "CurrentTable",
     "DeflectionTarget",
     "ExtremeOperatingGust",
     "FixedStep",
@@ -56,6 +65,7 @@ __all__ = [
     "OffwindError",
     "Parameter",
     "PowerLaw",
+    "PowerLawCurrent",
     "Pushover",
     "RegularWaves",
     "RotorThrust",
@@ -66,10 +76,13 @@ __all__ = [
     "SolverError",
     "StaticResult",
     "StillWater",
+    "StreamWaves",
+    "SurfaceCurrent",
     "SyntheticWind",
     "System",
     "TowerWind",
     "Turbine",
+    "UniformCurrent",
     "WindSeries",
     "aerodynamic_damping",
     "build",

@@ -8,8 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from offwind_pin.errors import InputError
+from offwind_pin.loads.current import Current, CurrentSum, mean_velocity
 from offwind_pin.loads.linear_waves import LinearWaves
-from offwind_pin.loads.water_series import CurrentProfile, Stretching
+from offwind_pin.loads.steady_wave import SteadyWave
+from offwind_pin.loads.stream_function import StreamFunctionWaves
+from offwind_pin.loads.water_series import Stretching
 from offwind_pin.loads.wave_field import WaveField
 from offwind_pin.loads.wave_spectra import pierson_moskowitz
 from offwind_pin.turbines.base import Array
@@ -29,7 +32,7 @@ class Sea(ABC):
     stretching : how linear waves act above the mean water level, see :class:`WaterSeries`
     """
 
-    current: CurrentProfile | None = None
+    current: Current | CurrentSum | None = None
     water_level: float = 0.0
     stretching: Stretching = "none"
 
@@ -84,6 +87,45 @@ class RegularWaves(Sea):
     @property
     def in_words(self) -> str:
         return f"regular waves, {self.height:g} m high, {self.period:g} s"
+
+
+@dataclass(frozen=True)
+class StreamWaves(Sea):
+    """A steep regular wave by stream function theory, exact up to its surface.
+
+    The wave is carried by the mean over the depth of the current along it; the current's own
+    profile acts on the structure.
+
+    height in m from trough to crest, period in s as a fixed observer sees it, direction_deg in
+    which it travels from +x towards +y, crest_time in s at which its crest is at the axis, order of
+    the series or None for one that is large enough
+    """
+
+    height: float
+    period: float
+    direction_deg: float = 0.0
+    crest_time: float = 0.0
+    order: int | None = None
+
+    def waves(self, depth: float, gravity: float) -> StreamFunctionWaves:
+        angle = float(np.radians(self.direction_deg))
+        along = 0.0
+        if self.current is not None:
+            mean = mean_velocity(self.current, depth)
+            along = float(mean @ [np.cos(angle), np.sin(angle), 0.0])
+        wave = SteadyWave.solve(
+            self.height,
+            period=self.period,
+            depth=depth,
+            gravity=gravity,
+            eulerian_current=along,
+            order=self.order,
+        )
+        return StreamFunctionWaves(wave, direction=angle, crest_time=self.crest_time)
+
+    @property
+    def in_words(self) -> str:
+        return f"stream function wave, {self.height:g} m high, {self.period:g} s"
 
 
 @dataclass(frozen=True)

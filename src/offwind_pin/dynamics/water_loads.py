@@ -53,10 +53,13 @@ class Waters:
         surface = WaterSurface(waves, level, sea.stretching)
         strips = wetted_strips(turbine, level, surface.lowest, surface.highest)
         added, drag = coefficients(turbine, strips.height, waves, level)
+        current = None
+        if sea.current is not None:
+            current = sea.current.velocity(strips.height - level, level - mudline)
         water = WaterSeries(
             strips.height,
             surface,
-            current=sea.current,
+            current=current,
             inertia_factor=diffraction(turbine, waves, level),
         )
         return Waters(turbine, strips, surface, water, added, drag)

@@ -13,9 +13,9 @@ from offwind_pin.turbines.base import Array, ComplexArray
 class StreamFunctionWaves(WaveField):
     """A :class:`SteadyWave` that passes x = y = 0 with a crest at ``crest_time``.
 
-    Harmonic 0 of the velocity is the wave's mean Eulerian velocity, so that a current with which
-    the wave was solved is in it already.  The acceleration is the total one of the particles,
-    Du/Dt, whose products of N harmonics have 2 N; that is why the field has harmonics 0 ... 2 N.
+    The mean Eulerian velocity with which the wave was solved is not in the velocity: it belongs to
+    the current that carries the wave. The acceleration is the total one of the particles, Du/Dt,
+    whose products of N harmonics have 2 N; that is why the field has harmonics 0 ... 2 N.
 
     Parameters
     ----------
@@ -48,7 +48,7 @@ class StreamFunctionWaves(WaveField):
 
     def velocity(self, height: Array) -> ComplexArray:
         along, up = self._amplitudes(height)
-        along[:, 0] += self.wave.speed
+        along[:, 0] = 0.0
         return self._turned(self._from_cosines(along), 1j * self._from_cosines(up))
 
     def acceleration(self, height: Array) -> ComplexArray:

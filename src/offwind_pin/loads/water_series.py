@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Literal, NamedTuple, Protocol, get_args
+from typing import Literal, NamedTuple, get_args
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -25,13 +25,6 @@ _BLOCK = 64
 
 _VERTICAL, _EXTRAPOLATION, _WHEELER, _EXACT = range(4)
 _RULES = {"vertical": _VERTICAL, "extrapolation": _EXTRAPOLATION, "wheeler": _WHEELER}
-
-
-class CurrentProfile(Protocol):
-    """A current over height."""
-
-    def velocity(self, height: Array) -> Array:
-        """(n, 3) in m/s at heights (n,) in m above the mean water level, where at most 0."""
 
 
 class WaterSurface:
@@ -86,8 +79,6 @@ class WaterSurface:
 class WaterSeries:
     """Velocity and acceleration of water at n strips, and the surface up to which it wets them.
 
-    The current above the mean water level is that at it.
-
     Attributes
     ----------
     highest_surface, lowest_surface : in m, over a whole period of the waves; equal if it stays
@@ -98,19 +89,17 @@ class WaterSeries:
         height: Array,
         surface: WaterSurface,
         *,
-        current: CurrentProfile | None = None,
+        current: Array | None = None,
         inertia_factor: Callable[[Array], ComplexArray] | None = None,
     ) -> None:
-        """height (n,) of the strips in m.
+        """height (n,) of the strips in m, current (n, 3) there in m/s.
 
         inertia_factor : gives for heights (k,) in m the factors (k, m) of the amplitudes of the
             accelerations there, for diffraction
         """
         above_level = np.array(height, dtype=float) - surface.level
         self._surface = surface
-        self._current = np.zeros((len(height), 3))
-        if current is not None:
-            self._current = current.velocity(np.minimum(above_level, 0.0))
+        self._current = np.zeros((len(height), 3)) if current is None else current
         self._motion = None
         if surface.waves is not None:
             self._motion = _Motion(surface.waves, surface, above_level, inertia_factor)
