@@ -10,10 +10,10 @@ import xarray as xr
 
 import offwind_pin as ow
 from offwind_pin.campaign.case import (
-    IrregularSeaState,
     TransientAnalysis,
     load_case,
 )
+from offwind_pin.campaign.sea_states import IrregularSea
 from offwind_pin.campaign.tower_top_loads import SyntheticTowerTopLoad
 from offwind_pin.turbines.definition import RotorNacelleRNA
 
@@ -55,7 +55,7 @@ def operational_case(
     turbine = ow.load_turbine(case.turbine)
     sea, wind, analysis = case.sea, case.tower_top_load, case.analysis
     if not (
-        isinstance(sea, IrregularSeaState)
+        isinstance(sea, IrregularSea)
         and isinstance(wind, SyntheticTowerTopLoad)
         and isinstance(analysis, TransientAnalysis)
         and isinstance(turbine.rna, RotorNacelleRNA)

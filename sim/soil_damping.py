@@ -22,10 +22,10 @@ from numpy.typing import NDArray
 import offwind_pin as ow
 from offwind_pin.campaign.case import (
     Case,
-    IrregularSeaState,
     TransientAnalysis,
     load_case,
 )
+from offwind_pin.campaign.sea_states import IrregularSea
 from offwind_pin.campaign.summaries import BANDS_HZ, moment_spectrum
 from offwind_pin.campaign.tower_top_loads import SyntheticTowerTopLoad
 from offwind_pin.display.style import (
@@ -176,7 +176,7 @@ def environment(
 ) -> tuple[ow.IrregularWaves, ow.LoadHistory]:
     """Waves and tower-top load of a case, drawn anew."""
     sea, load = case.sea, case.tower_top_load
-    if not isinstance(sea, IrregularSeaState) or not isinstance(load, SyntheticTowerTopLoad):
+    if not isinstance(sea, IrregularSea) or not isinstance(load, SyntheticTowerTopLoad):
         raise TypeError("the case has no irregular waves or no synthetic wind")
     if not isinstance(turbine.rna, RotorNacelleRNA):
         raise TypeError("the turbine has no rotor")

@@ -9,7 +9,9 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, Field, model_validator
 
 from offwind_pin.analysis.foundations import FOUNDATIONS
+from offwind_pin.campaign.sea_states import SeaChoice
 from offwind_pin.campaign.tower_top_loads import TowerTopLoadChoice
+from offwind_pin.campaign.tower_winds import TowerWindChoice
 from offwind_pin.structure.chain import MOST_ELEMENTS, Element
 from offwind_pin.turbines.base import Definition, NonNegative, Number, Positive
 from offwind_pin.turbines.reader import find_definition, read_model
@@ -26,26 +28,6 @@ FoundationName = Annotated[str, AfterValidator(_known_foundation)]
 
 _COARSEST_OUTPUT = 0.3
 """s; the highest band of interest ends at 1.5 Hz."""
-
-
-class DrySea(Definition):
-    """No water."""
-
-    kind: Literal["dry"]
-
-
-class StillSea(Definition):
-    """Water at rest."""
-
-    kind: Literal["still_water"]
-
-
-class IrregularSeaState(Definition):
-    """Pierson-Moskowitz waves; the case's seed draws their phases."""
-
-    kind: Literal["irregular_waves"]
-    significant_height: Annotated[Positive, Field(le=30)] = Field(alias="significant_height_m")
-    peak_period: Annotated[Positive, Field(ge=1, le=30)] = Field(alias="peak_period_s")
 
 
 class StaticAnalysis(Definition):
@@ -112,8 +94,9 @@ class Case(Definition):
     description: str = ""
     turbine: str
     foundation: FoundationName
-    sea: Annotated[DrySea | StillSea | IrregularSeaState, Field(discriminator="kind")]
+    sea: SeaChoice
     tower_top_load: TowerTopLoadChoice | None = None
+    tower_wind: TowerWindChoice | None = None
     analysis: Annotated[
         StaticAnalysis | ModalAnalysis | TransientAnalysis, Field(discriminator="kind")
     ]
@@ -126,10 +109,16 @@ class Case(Definition):
     def _loads_have_an_effect(self) -> Case:
         if self.analysis.kind == "transient":
             return self
-        if self.tower_top_load is not None or self.sea.kind == "irregular_waves":
+        loads = {
+            "tower_top_load": self.tower_top_load is not None,
+            "tower_wind": self.tower_wind is not None,
+            self.sea.kind: self.sea.has_waves,
+        }
+        given = [name for name, is_there in loads.items() if is_there]
+        if given:
             raise ValueError(
-                f"a {self.analysis.kind} analysis takes neither tower_top_load nor "
-                "irregular_waves; remove them or use analysis kind transient"
+                f"a {self.analysis.kind} analysis does not take {', '.join(given)}; leave them "
+                "out, or use analysis kind transient"
             )
         return self
 

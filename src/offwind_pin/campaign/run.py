@@ -16,8 +16,6 @@ from offwind_pin.analysis.static import StaticResult, static
 from offwind_pin.analysis.transient import simulate
 from offwind_pin.campaign.case import (
     Case,
-    DrySea,
-    IrregularSeaState,
     ModalAnalysis,
     StaticAnalysis,
     TransientAnalysis,
@@ -39,8 +37,8 @@ from offwind_pin.display.report import (
     WindDescription,
     write_report,
 )
-from offwind_pin.dynamics.sea import IrregularWaves, Sea, StillWater
 from offwind_pin.dynamics.system import System
+from offwind_pin.dynamics.wind_loads import tower_drag
 from offwind_pin.errors import InterruptedSimulation, SolverError
 from offwind_pin.loads.synthetic_wind import operate_rotor
 from offwind_pin.results.blocks import time_reached
@@ -110,19 +108,21 @@ def _solve(
     case: Case, turbine: Turbine, folder: Path, out: Path, progress: Progress | None
 ) -> CaseResult:
     if isinstance(case.analysis, StaticAnalysis):
-        return _solve_static(case, turbine, case.analysis)
+        return _solve_static(case, turbine, case.analysis, folder)
     if isinstance(case.analysis, ModalAnalysis):
-        return _solve_modes(case, turbine, case.analysis)
+        return _solve_modes(case, turbine, case.analysis, folder)
     return _solve_transient(case, turbine, case.analysis, folder, out, progress)
 
 
-def _solve_static(case: Case, turbine: Turbine, analysis: StaticAnalysis) -> CaseResult:
-    system = _build(case, turbine, case.foundation)
+def _solve_static(
+    case: Case, turbine: Turbine, analysis: StaticAnalysis, folder: Path
+) -> CaseResult:
+    system = _build(case, turbine, case.foundation, folder)
     state = static(system)
     summary = summarise_static(state) | {"foundation": case.foundation}
     statics: dict[str, StaticResult] = {case.foundation: state}
     if analysis.compare_with is not None:
-        other = static(_build(case, turbine, analysis.compare_with))
+        other = static(_build(case, turbine, analysis.compare_with, folder))
         reference = float(other.tower_top_displacement[0])
         statics[analysis.compare_with] = other
         summary[f"{analysis.compare_with}_tower_top_x_m"] = reference
@@ -132,8 +132,8 @@ def _solve_static(case: Case, turbine: Turbine, analysis: StaticAnalysis) -> Cas
     return CaseResult(summary, static_to_dataset(system, state), system, None, statics)
 
 
-def _solve_modes(case: Case, turbine: Turbine, analysis: ModalAnalysis) -> CaseResult:
-    system = _build(case, turbine, case.foundation)
+def _solve_modes(case: Case, turbine: Turbine, analysis: ModalAnalysis, folder: Path) -> CaseResult:
+    system = _build(case, turbine, case.foundation, folder)
     state = static(system)
     result = modes(system, analysis.count, state)
     table = summarise_modes(result)
@@ -163,20 +163,21 @@ def _solve_transient(
     out: Path,
     progress: Progress | None,
 ) -> CaseResult:
-    system = _build(case, turbine, case.foundation, analysis.duration)
+    system = _build(case, turbine, case.foundation, folder, analysis.duration)
     top = tower_top(case, turbine, analysis, folder)
+    wind = [] if case.tower_wind is None else [tower_drag(system, case.tower_wind.wind())]
     data = simulate(
         system,
         analysis.duration,
         analysis.dt,
-        top.loads,
+        [*top.loads, *wind],
         ramp=analysis.ramp,
         output_dt=analysis.output_dt,
         directory=out,
         provenance={"case": case.name, "seed": case.seed, **top.provenance},
         progress=None if progress is None else lambda now: progress(now, analysis.duration),
     )
-    state = static(system, top.mean)
+    state = static(system, top.mean, loads=wind)
     result = modes(system, min(8, system.nv), state)
     marked = _marked(case, result, top.blade_passing_frequency)
     spectrum = moment_spectrum(data, analysis.psd_segment, marked)
@@ -207,32 +208,22 @@ def _frequencies(result: ModalResult) -> dict[str, float]:
     }
 
 
-def _build(case: Case, turbine: Turbine, foundation: str, duration: float = 0.0) -> System:
+def _build(
+    case: Case, turbine: Turbine, foundation: str, folder: Path, duration: float = 0.0
+) -> System:
     """The case's system on a foundation; only distributed springs have a pile to divide."""
     elements = case.elements
     if isinstance(elements, dict) and foundation != "distributed_springs":
         elements = {region: count for region, count in elements.items() if region != "pile"}
-    return build(turbine, foundation, _sea(case, duration), elements=elements, element=case.element)
-
-
-def _sea(case: Case, duration: float) -> Sea | None:
-    if isinstance(case.sea, DrySea):
-        return None
-    if isinstance(case.sea, IrregularSeaState):
-        return IrregularWaves(
-            case.sea.significant_height,
-            case.sea.peak_period,
-            seed=case.seed,
-            repeat_period=max(duration, 600.0),
-        )
-    return StillWater()
+    sea = case.sea.sea(case.seed, duration, folder)
+    return build(turbine, foundation, sea, elements=elements, element=case.element)
 
 
 def _marked(case: Case, result: ModalResult, passing: float | None) -> dict[str, float]:
     """Frequencies in Hz that a reader looks for in the spectrum, by name."""
     marked = {}
-    if isinstance(case.sea, IrregularSeaState):
-        marked["wave"] = 1 / case.sea.peak_period
+    if case.sea.marked_frequency is not None:
+        marked["wave"] = case.sea.marked_frequency
     for label in ("FA1", "FA2"):
         if label in result.label:
             marked[label] = float(result.frequency_hz[result.index(label)])
