@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import xarray as xr
 import yaml
 
 import offwind_pin as ow
@@ -143,10 +144,42 @@ def test_rotor_of_the_docs(written: Path) -> None:
     assert thrust[0] == pytest.approx(0.5 * 1.225 * np.pi * 63**2 * 0.8 * 81, rel=1e-9)
 
 
+def test_sea_of_the_docs(written: Path) -> None:
+    """The sea that the page shows, and the other kinds it names, run with wind on the tower."""
+    base = yaml.safe_load((written / "my_case.yaml").read_text())
+    shown = yaml.safe_load(_blocks("docs/case_file.md", "yaml")[1])
+    del base["tower_top_load"]
+    short = {"duration_s": 30.0, "ramp_s": 5.0, "dt_s": 0.05, "output_dt_s": 0.1}
+    base["analysis"] |= short | {"psd_segment_s": 10.0}
+    base |= {"turbine": "oc3_phase2", "foundation": "clamped", "elements": 12}
+    base["tower_wind"] = {
+        "speed_m_per_s": 20.0,
+        "reference_height_m": 90.0,
+        "drag_coefficient": 0.7,
+        "gust": {"size_m_per_s": 5.0, "start_s": 8.0},
+    }
+    regular = {"height_m": 6.0, "period_s": 9.0, "direction_deg": 90.0}
+    seas = [
+        shown["sea"],
+        {"kind": "regular_waves", "stretching": "vertical", **regular},
+        {"kind": "stream_function_waves", "crest_time_s": 10.0, **regular},
+    ]
+    for number, sea in enumerate(seas):
+        out = written / f"sea{number}"
+        summary = run_case(Case.model_validate(base | {"sea": sea}), written, out)
+        assert summary["status"] == "complete"
+        with xr.open_dataset(out / "results.nc") as data:
+            waves = data["wave_elevation"].sel(time=slice(10, 30))
+            assert float(waves.max()) > 2.0
+            force = data["mudline_force"].sel(time=slice(10, 30)).std("time")
+            lateral = "x" if number == 0 else "y"
+            assert float(force.sel(direction=lateral)) > 1e5
+
+
 def test_tower_top_loads_of_the_docs(written: Path) -> None:
     """Every load that the page shows fits the case; the rotor's runs."""
     base = yaml.safe_load((written / "my_case.yaml").read_text())
-    loads = [yaml.safe_load(block) for block in _blocks("docs/case_file.md", "yaml")[1:]]
+    loads = [yaml.safe_load(block) for block in _blocks("docs/case_file.md", "yaml")[2:]]
     kinds = []
     for load in loads:
         case = Case.model_validate(base | load)
