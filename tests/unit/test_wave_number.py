@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
-from offwind_pin.loads.dispersion import wave_number
+from offwind_pin.loads.dispersion import wave_number, wave_number_in_current
 
 GRAVITY = 9.80665
 
@@ -39,3 +39,29 @@ def test_dispersion_for_any_planet(omega: float, depth: float, gravity: float) -
     """The relation holds for any frequency, depth and gravity."""
     k = wave_number(np.array([omega]), depth, gravity)
     assert_allclose(gravity * k * np.tanh(k * depth), omega**2, rtol=1e-12)
+
+
+@pytest.mark.parametrize("current", [-1.5, -0.3, 0.0, 0.4, 3.0])
+@pytest.mark.parametrize("depth", [4.0, 30.0, 2000.0])
+def test_dispersion_in_a_current(current: float, depth: float) -> None:
+    """(omega - k U)^2 = g k tanh(k h), on the branch that goes over into that without a current."""
+    omega = 2 * np.pi * np.array([0.02, 0.08, 0.15, 0.25])
+    k = wave_number_in_current(omega, depth, GRAVITY, np.full(4, current))
+    moving = np.isfinite(k)
+    assert np.count_nonzero(moving) >= 3
+    own = omega - k * current
+    assert_allclose((GRAVITY * k * np.tanh(k * depth))[moving], own[moving] ** 2, rtol=1e-11)
+    assert np.all(own[moving] > 0)
+    free = wave_number(omega, depth, GRAVITY)
+    assert np.all((np.sign(free - k) == np.sign(current))[moving] | (current == 0))
+
+
+def test_current_in_deep_water() -> None:
+    """k = k_0 (2 / (1 + sqrt(1 + 4 U omega / g)))^2, and blocked below U = -g / (4 omega)."""
+    omega = np.full(4, 1.2)
+    limit = GRAVITY / (4 * omega[0])
+    current = limit * np.array([2.0, -0.5, -0.99, -1.01])
+    k = wave_number_in_current(omega, 1e4, GRAVITY, current)
+    root = 1 + np.sqrt(1 + current[:3] / limit)
+    assert_allclose(k[:3], omega[:3] ** 2 / GRAVITY * (2 / root) ** 2, rtol=1e-10)
+    assert np.isnan(k[3])

@@ -33,6 +33,8 @@ def wave_number_in_current(
 ) -> Array:
     """Wave numbers in rad/m from (omega - k U)^2 = g k tanh(k h); NaN for waves that are blocked.
 
+    Waves so close to blocking that their wave number is not found to 1e-13 count as blocked.
+
     angular_frequency in rad/s (positive) as a fixed observer sees it; along (m,) the current's
     component U in m/s in each wave's direction. An opposing current shortens a wave, until its
     energy comes on no more (Peregrine, Adv. Appl. Mech. 16, 1976, Eq. 2.7): such waves are blocked.
@@ -52,4 +54,7 @@ def wave_number_in_current(
         k = k - step
         if np.all(np.isnan(step) | (np.abs(step) <= 1e-13 * k)):
             break
+    else:
+        # close to blocking two roots meet, and Newton's method creeps
+        k = np.where(np.abs(step) <= 1e-13 * k, k, np.nan)
     return np.asarray(k)
