@@ -217,6 +217,7 @@ class IrregularSea(Waves):
     kind: Literal["irregular_waves"]
     significant_height: Annotated[Positive, Field(le=30)] = Field(alias="significant_height_m")
     peak_period: WavePeriod = Field(alias="peak_period_s")
+    peak_shape: Annotated[Number, Field(ge=1, le=7)] | Literal["iec"] = 1.0
 
     @property
     def marked_frequency(self) -> float | None:
@@ -228,6 +229,8 @@ class IrregularSea(Waves):
             self.peak_period,
             seed=seed,
             repeat_period=max(duration, SHORTEST_REPEAT),
+            peak_shape=self.peak_shape,
+            direction_deg=self.direction_deg,
             **self.settings(),
         )
 

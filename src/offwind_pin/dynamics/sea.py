@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -14,7 +15,7 @@ from offwind_pin.loads.steady_wave import SteadyWave
 from offwind_pin.loads.stream_function import StreamFunctionWaves
 from offwind_pin.loads.water_series import Stretching
 from offwind_pin.loads.wave_field import WaveField
-from offwind_pin.loads.wave_spectra import pierson_moskowitz
+from offwind_pin.loads.wave_spectra import iec_peak_shape, jonswap
 from offwind_pin.turbines.base import Array
 
 _STREAM = 1
@@ -130,15 +131,19 @@ class StreamWaves(Sea):
 
 @dataclass(frozen=True)
 class IrregularWaves(Sea):
-    """Pierson-Moskowitz sea travelling along +x.
+    """Waves of a JONSWAP spectrum, with a peak shape of 1 of Pierson and Moskowitz's.
 
-    significant_height in m, peak_period in s; repeat_period in s should exceed the case's length.
+    significant_height in m, peak_period in s; repeat_period in s should exceed the case's length;
+    peak_shape from 1 to 7, or ``"iec"`` for IEC's rule; direction_deg in which they travel, from +x
+    towards +y
     """
 
     significant_height: float
     peak_period: float
     seed: int
     repeat_period: float
+    peak_shape: float | Literal["iec"] = 1.0
+    direction_deg: float = 0.0
 
     def __post_init__(self) -> None:
         for name in ("significant_height", "peak_period", "repeat_period"):
@@ -148,6 +153,21 @@ class IrregularWaves(Sea):
             raise InputError("waves, field repeat_period", self.repeat_period, allowed, "Raise it.")
         if not (isinstance(self.seed, int) and self.seed >= 0):
             raise InputError("waves, field seed", self.seed, "a whole number from 0", "Correct it.")
+        if self.peak_shape != "iec" and not (
+            isinstance(self.peak_shape, int | float) and 1 <= self.peak_shape <= 7
+        ):
+            allowed = "1 to 7, or iec"
+            raise InputError("waves, field peak_shape", self.peak_shape, allowed, "Correct it.")
+        if not np.isfinite(self.direction_deg):
+            where = "waves, field direction_deg"
+            raise InputError(where, self.direction_deg, "an angle in degrees", "Correct it.")
+
+    @property
+    def shape(self) -> float:
+        """The peak-shape factor as a number."""
+        if self.peak_shape == "iec":
+            return iec_peak_shape(self.significant_height, self.peak_period)
+        return float(self.peak_shape)
 
     def waves(self, depth: float, gravity: float) -> LinearWaves:
         """Components from 0.4 to 5 times the peak frequency.
@@ -157,15 +177,17 @@ class IrregularWaves(Sea):
         """
         step, peak = 1 / self.repeat_period, 1 / self.peak_period
         harmonic: Array = np.arange(np.ceil(0.4 * peak / step), np.floor(5 * peak / step) + 1)
-        density = pierson_moskowitz(harmonic * step, self.significant_height, self.peak_period)
+        density = jonswap(harmonic * step, self.significant_height, self.peak_period, self.shape)
         phase = np.random.default_rng((self.seed, _STREAM)).uniform(0, 2 * np.pi, len(harmonic))
         amplitude = np.sqrt(2 * density * step) * np.exp(-1j * phase)
-        return LinearWaves.free(self.repeat_period, harmonic, amplitude, depth, gravity)
+        angle = float(np.radians(self.direction_deg))
+        return LinearWaves.free(self.repeat_period, harmonic, amplitude, depth, gravity, angle)
 
     @property
     def in_words(self) -> str:
         height, period = self.significant_height, self.peak_period
-        return f"Pierson-Moskowitz waves, Hs {height:g} m, Tp {period:g} s"
+        kind = "Pierson-Moskowitz" if self.shape == 1 else f"JONSWAP (gamma {self.shape:.3g})"
+        return f"{kind} waves, Hs {height:g} m, Tp {period:g} s"
 
 
 def require_positive(where: str, value: float) -> None:

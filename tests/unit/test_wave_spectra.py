@@ -1,0 +1,124 @@
+"""Wave spectra and the irregular seas made from them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy.integrate import quad
+
+import offwind_pin as ow
+from offwind_pin.loads.linear_waves import LinearWaves
+from offwind_pin.loads.wave_spectra import iec_peak_shape, jonswap, pierson_moskowitz
+
+
+def area(shape: float, order: int = 0) -> float:
+    """Spectral moment of a sea of 1.25 m and 5.5 s, in m2 Hz^order."""
+    return sum(
+        quad(
+            lambda f: f**order * float(jonswap(np.array(f), 1.25, 5.5, shape)),
+            low,
+            high,
+            epsabs=1e-14,
+            limit=200,
+        )[0]
+        for low, high in ((0.02, 1 / 5.5), (1 / 5.5, 0.4), (0.4, 1.0), (1.0, np.inf))
+    )
+
+
+def sea(seed: int = 1, period: float = 600.0, **more: Any) -> LinearWaves:
+    """The sea of LC 5.1, if not said otherwise."""
+    return ow.IrregularWaves(1.25, 5.5, seed=seed, repeat_period=period, **more).waves(
+        30.0, 9.80665
+    )
+
+
+def test_area_is_the_variance() -> None:
+    """Hs^2 / 16 exactly for Pierson and Moskowitz, within the stated 1 and 3 % for JONSWAP."""
+    assert area(1.0) == pytest.approx(1.25**2 / 16, rel=1e-9)
+    for shape in (1.5, 3.3, 5.0):
+        assert area(shape) == pytest.approx(1.25**2 / 16, rel=0.01)
+    assert area(7.0) == pytest.approx(1.25**2 / 16, rel=0.03)
+
+
+def test_peak() -> None:
+    """Stationary at 1 / Tp, and there gamma times the level as high as without."""
+    f = np.array([0.999, 1.0, 1.001]) / 5.5
+    for shape in (1.0, 3.3):
+        density = jonswap(f, 1.25, 5.5, shape)
+        assert density[1] > density[0]
+        assert density[1] > density[2]
+    flat = pierson_moskowitz(f[1:2], 1.25, 5.5)
+    assert density[1] / flat[0] == pytest.approx(3.3 * (1 - 0.287 * np.log(3.3)))
+
+
+def test_shape_by_steepness() -> None:
+    """IEC's three branches, continuous within 1 % where they meet."""
+    assert iec_peak_shape(9.0, 9.0) == 5.0
+    assert iec_peak_shape(1.0, 6.0) == 1.0
+    assert iec_peak_shape(1.0, 4.3) == pytest.approx(np.exp(5.75 - 1.15 * 4.3))
+    assert iec_peak_shape(1.0, 3.6001) == pytest.approx(5.0, rel=0.01)
+    assert iec_peak_shape(1.0, 4.9999) == pytest.approx(1.0, rel=0.01)
+    steep = ow.IrregularWaves(9.0, 9.0, seed=1, repeat_period=600.0, peak_shape="iec")
+    assert steep.shape == 5.0
+    assert "JONSWAP (gamma 5)" in steep.in_words
+
+
+def test_elevation_variance_is_half_the_sum_of_squares() -> None:
+    """Over one period of the sea the components are orthogonal: the variance is sum a^2 / 2."""
+    waves, time = sea(), np.arange(0, 600.0, 0.25)
+    elevation = (np.exp(1j * np.outer(time, waves.omega)) @ waves.elevation).real
+    variance = np.sum(np.abs(waves.elevation) ** 2) / 2
+    assert np.var(elevation) == pytest.approx(variance, rel=1e-10)
+    assert np.mean(elevation) == pytest.approx(0.0, abs=1e-12)
+
+
+def test_three_hours_hold_the_spectrum() -> None:
+    """Deterministic amplitudes: m0 and m2 of the kept band to the rule of equal steps; Hs with it."""
+    waves = sea(period=10800.0, peak_shape=3.3)
+    frequency, square = waves.harmonic / 10800.0, np.abs(waves.elevation) ** 2 / 2
+    low, high = 0.4 / 5.5, 5 / 5.5
+    edges = (low, 1 / 5.5, 0.4, high)
+    for order in (0, 2):
+        held = sum(
+            quad(lambda f: f**order * float(jonswap(np.array(f), 1.25, 5.5, 3.3)), a, b)[0]
+            for a, b in zip(edges, edges[1:], strict=False)
+        )
+        assert np.sum(frequency**order * square) == pytest.approx(held, rel=2e-4)
+    assert 4 * np.sqrt(np.sum(square)) == pytest.approx(1.25, rel=5e-3)
+
+
+def test_realised_height_and_period() -> None:
+    """The band kept holds 99.8 % of the variance; the largest component is next to the peak."""
+    waves = sea()
+    held = np.exp(-1.25 / 5**4) - np.exp(-1.25 / 0.4**4)
+    height = 4 * np.sqrt(np.sum(np.abs(waves.elevation) ** 2) / 2)
+    assert height == pytest.approx(1.25 * np.sqrt(held), rel=1e-4)
+    largest = waves.harmonic[np.argmax(np.abs(waves.elevation))] / 600.0
+    assert largest == pytest.approx(1 / 5.5, abs=0.5 / 600)
+
+
+def test_seed_sets_the_phases_alone() -> None:
+    """The same seed gives the same sea; another gives the same amplitudes at other phases."""
+    one, same, other = sea(1), sea(1), sea(2)
+    assert np.array_equal(one.elevation, same.elevation)
+    assert_allclose(np.abs(one.elevation), np.abs(other.elevation), rtol=1e-14)
+    assert np.max(np.abs(np.angle(one.elevation / other.elevation))) > 1
+
+
+def test_direction_turns_all_components() -> None:
+    """Towards +y there is nothing along x."""
+    velocity = sea(direction_deg=90.0).velocity(np.array([-3.0]))
+    straight = sea().velocity(np.array([-3.0]))
+    assert_allclose(velocity[1], straight[0], rtol=1e-12)
+    assert np.max(np.abs(velocity[0])) < 1e-12
+
+
+@pytest.mark.parametrize(
+    "change", [{"peak_shape": 0.5}, {"peak_shape": "pm"}, {"direction_deg": np.nan}]
+)
+def test_seas_that_cannot_be(change: dict[str, Any]) -> None:
+    with pytest.raises(ow.InputError, match="waves"):
+        sea(**change)
