@@ -1,6 +1,6 @@
 """Water over time: the table against direct sums, stretching by hand, blocks, current, rise."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -57,14 +57,6 @@ def test_extremes_of_a_sum() -> None:
     )
     assert low[0] == pytest.approx(dense.min(), abs=1e-4 * np.ptp(dense))
     assert high[0] == pytest.approx(dense.max(), abs=1e-4 * np.ptp(dense))
-
-
-@dataclass(frozen=True)
-class Uniform:
-    speed: tuple[float, float, float]
-
-    def velocity(self, height: Array) -> Array:
-        return np.tile(self.speed, (len(height), 1)) * (1 + height[:, None] / 60)
 
 
 def test_rows_without_stretching() -> None:
@@ -151,12 +143,14 @@ def test_rows_depend_on_the_time_alone(rule: str) -> None:
 
 def test_current_acts_in_full() -> None:
     """At rise 0 there is nothing but the current; above the level it is that at the level."""
-    current = Uniform((1.0, -0.5, 0.0))
+    profile = ow.CurrentTable(1.0, -30.0, depth=(0.0, 60.0), factor=(1.0, 0.0))
+    current = profile.velocity(HEIGHT, DEPTH)
     water = WaterSeries(HEIGHT, WaterSurface(sea(), 0.0, "wheeler"), current=current)
     row = water.rows(np.array([5.0]), np.zeros(1))[0]
     n = len(HEIGHT)
     assert row[0] == 0.0
-    expected = np.array([1.0, -0.5, 0.0]) * (1 + np.minimum(HEIGHT, 0.0)[:, None] / 60)
+    towards = np.array([np.cos(np.pi / 6), -0.5, 0.0])
+    expected = towards * (1 + np.minimum(HEIGHT, 0.0)[:, None] / 60)
     assert_allclose(row[1 : 1 + 3 * n].reshape(n, 3), expected)
     assert np.all(row[1 + 3 * n :] == 0)
 
