@@ -103,4 +103,4 @@ def test_what_is_right_is_read(tmp_path: Path) -> None:
         {"diffraction": "maccamy_fuchs", "buoyancy": True, "contents": {"kind": "sealed"}},
     ]
     for keys in sound:
-        read(keys, tmp_path)
+        assert keys.keys() <= read(keys, tmp_path).hydrodynamics.model_fields_set

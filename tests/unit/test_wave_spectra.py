@@ -122,3 +122,17 @@ def test_direction_turns_all_components() -> None:
 def test_seas_that_cannot_be(change: dict[str, Any]) -> None:
     with pytest.raises(ow.InputError, match="waves"):
         sea(**change)
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: ow.RegularWaves(-1.0, 9.0),
+        lambda: ow.RegularWaves(1.0, 9.0, np.inf),
+        lambda: ow.StreamWaves(6.0, 9.0, np.nan),
+        lambda: ow.StreamWaves(6.0, 9.0, crest_time=np.nan),
+    ],
+)
+def test_regular_waves_that_cannot_be(make: Any) -> None:
+    with pytest.raises(ow.InputError, match="waves, field"):
+        make()

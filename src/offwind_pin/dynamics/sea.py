@@ -74,6 +74,7 @@ class RegularWaves(Sea):
     def __post_init__(self) -> None:
         for name in ("height", "period"):
             require_positive(f"waves, field {name}", getattr(self, name))
+        require_angle(self.direction_deg)
 
     def waves(self, depth: float, gravity: float) -> LinearWaves:
         return LinearWaves.free(
@@ -107,6 +108,12 @@ class StreamWaves(Sea):
     direction_deg: float = 0.0
     crest_time: float = 0.0
     order: int | None = None
+
+    def __post_init__(self) -> None:
+        require_angle(self.direction_deg)
+        if not np.isfinite(self.crest_time):
+            where = "waves, field crest_time"
+            raise InputError(where, self.crest_time, "a time in s", "Correct it.")
 
     def waves(self, depth: float, gravity: float) -> StreamFunctionWaves:
         angle = float(np.radians(self.direction_deg))
@@ -158,9 +165,7 @@ class IrregularWaves(Sea):
         ):
             allowed = "1 to 7, or iec"
             raise InputError("waves, field peak_shape", self.peak_shape, allowed, "Correct it.")
-        if not np.isfinite(self.direction_deg):
-            where = "waves, field direction_deg"
-            raise InputError(where, self.direction_deg, "an angle in degrees", "Correct it.")
+        require_angle(self.direction_deg)
 
     @property
     def shape(self) -> float:
@@ -188,6 +193,13 @@ class IrregularWaves(Sea):
         height, period = self.significant_height, self.peak_period
         kind = "Pierson-Moskowitz" if self.shape == 1 else f"JONSWAP (gamma {self.shape:.3g})"
         return f"{kind} waves, Hs {height:g} m, Tp {period:g} s"
+
+
+def require_angle(direction_deg: float) -> None:
+    """Refuse what is no direction of waves."""
+    if not np.isfinite(direction_deg):
+        where = "waves, field direction_deg"
+        raise InputError(where, direction_deg, "an angle in degrees", "Correct it.")
 
 
 def require_positive(where: str, value: float) -> None:
