@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import logging
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Any
@@ -37,6 +37,8 @@ from offwind_pin.results.files import write_text
 from offwind_pin.structure.chain import Element
 from offwind_pin.turbines.base import Array
 from offwind_pin.turbines.reader import load_turbine
+from offwind_pin.verification.ledger import Outcome, Row, choose, verify
+from offwind_pin.verification.page import outcome_cells, verification_page
 
 EXIT_SYSTEM, EXIT_INPUT, EXIT_SOLVER, EXIT_INTERRUPTED = 1, 2, 3, 130
 
@@ -199,7 +201,7 @@ def animate_command(
     dry: Annotated[bool, typer.Option("--dry", help="Without water.")] = False,  # noqa: FBT002
 ) -> None:
     """Write a self-contained page with a mode moving."""
-    _check_target(html)
+    _check_target("--html", html, "fa2.html")
     system = build(
         load_turbine(turbine), foundation, None if dry else StillWater(), element=element
     )
@@ -220,6 +222,32 @@ def urdf(
     system = build(load_turbine(turbine), foundation, elements=elements, element=element)
     for path in export_urdf(system, out):
         Console().print(f"Wrote {path}", soft_wrap=True)
+
+
+@app.command("verify")
+def verify_command(
+    only: Annotated[
+        str | None, typer.Option(help="Rows by id, or several: oc6-*, morison-*.")
+    ] = None,
+    page: Annotated[Path | None, typer.Option(help="File for the rows as a Markdown page.")] = None,
+    as_json: JsonOption = False,  # noqa: FBT002
+) -> None:
+    """Check every claim of the verification ledger anew; exit status 1 if a row fails."""
+    rows = choose(only)
+    if page is not None:
+        _check_target("--page", page, "VERIFICATION.md")
+    # Its plain structures are no turbines, and cautions about them would drown the table.
+    logging.getLogger("offwind_pin").setLevel(logging.ERROR)
+    with _rows_progress(len(rows)) as progress:
+        outcomes = verify(rows, progress)
+    if page is not None:
+        write_text(page, verification_page(outcomes))
+    if as_json:
+        _print_json({"rows": [outcome.as_dict() for outcome in outcomes]})
+    else:
+        _print_outcomes(outcomes)
+    if any(outcome.status == "fail" for outcome in outcomes):
+        raise typer.Exit(EXIT_SYSTEM)
 
 
 def main() -> None:
@@ -269,6 +297,25 @@ def _simulation_progress() -> Iterator[Callable[[float, float], None]]:
             bar.stop()
 
 
+@contextmanager
+def _rows_progress(count: int) -> Iterator[Callable[[int, Row], None]]:
+    """Progress bar on standard error with the row that is being checked."""
+    bar = Progress(
+        BarColumn(),
+        TextColumn("{task.completed:.0f} of {task.total:.0f}"),
+        TextColumn("{task.description}"),
+        console=Console(stderr=True),
+        transient=True,
+    )
+    with bar:
+        task = bar.add_task("", total=count)
+
+        def update(place: int, row: Row) -> None:
+            bar.update(task, completed=place, description=row.id)
+
+        yield update
+
+
 def _numbers(text: str, option: str) -> Array:
     """Numbers separated by commas; how many there must be is the load's own business."""
     try:
@@ -282,9 +329,9 @@ def _numbers(text: str, option: str) -> Array:
         ) from None
 
 
-def _check_target(path: Path) -> None:
+def _check_target(option: str, path: Path, example: str) -> None:
     if path.is_dir():
-        raise InputError("--html", str(path), "a file name", "Name a file, such as fa2.html.")
+        raise InputError(option, str(path), "a file name", f"Name a file, such as {example}.")
     check_writable(path.parent)
 
 
@@ -313,6 +360,30 @@ def _print_notes(system: System) -> None:
         if abs(achieved / asked - 1) > 0.05:
             text = f"Damping of {label}: {asked:.4g} asked for, {achieved:.4g} achieved."
             Console().print(text, style="yellow")
+
+
+def _print_outcomes(outcomes: Sequence[Outcome]) -> None:
+    """A table for each group, and what failed once more at the end."""
+    console = Console()
+    for group in dict.fromkeys(outcome.row.group for outcome in outcomes):
+        table = Table("row", "found", "off by", "allowed", "", title=f"\n{group}", box=None)
+        table.title_justify = "left"
+        for outcome in outcomes:
+            if outcome.row.group == group:
+                name, _, found, _, *cells = outcome_cells(outcome)
+                table.add_row(name, found, *cells, style=_OUTCOME_STYLE[outcome.status])
+        console.print(table)
+    passed = sum(outcome.status == "pass" for outcome in outcomes)
+    absent = [outcome for outcome in outcomes if outcome.status == "not run"]
+    console.print(f"{passed} of {len(outcomes)} rows passed, {len(absent)} not run.")
+    for outcome in outcomes:
+        if outcome.status != "pass":
+            text = f"{outcome.row.id}: {outcome.status}, {outcome.row.quantity}"
+            text += "" if outcome.reason is None else f" ({outcome.reason})"
+            console.print(text, soft_wrap=True, markup=False)
+
+
+_OUTCOME_STYLE = {"pass": "", "fail": "bold red", "not run": "yellow"}
 
 
 def _print_soil(overview: SoilOverview) -> None:

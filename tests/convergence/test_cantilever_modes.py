@@ -2,9 +2,12 @@
 
 import numpy as np
 import pytest
-from helpers.beams import cantilever_roots, ritz_frequencies
 from helpers.numerics import fitted_order
-from helpers.plain import (
+from numpy.typing import NDArray
+
+import offwind_pin as ow
+from offwind_pin.verification.beams import cantilever_roots, ritz_frequencies
+from offwind_pin.verification.plain_tubes import (
     DENSITY,
     LENGTH,
     SHEAR,
@@ -15,9 +18,6 @@ from helpers.plain import (
     mass_per_length,
     tube,
 )
-from numpy.typing import NDArray
-
-import offwind_pin as ow
 
 Array = NDArray[np.float64]
 

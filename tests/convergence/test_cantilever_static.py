@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 from helpers.numerics import fitted_order
-from helpers.plain import (
+
+import offwind_pin as ow
+from offwind_pin.verification.plain_tubes import (
     DIAMETER,
     LENGTH,
     SHEAR,
@@ -13,8 +15,6 @@ from helpers.plain import (
     polar_inertia,
     tube,
 )
-
-import offwind_pin as ow
 
 COUNTS = np.array([4, 8, 16, 32])
 SMALL = 1e-6

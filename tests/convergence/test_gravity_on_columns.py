@@ -3,17 +3,17 @@
 import numpy as np
 import pytest
 from helpers.numerics import fitted_order
-from helpers.plain import (
+from scipy.optimize import brentq
+from scipy.special import jv
+
+import offwind_pin as ow
+from offwind_pin.verification.plain_tubes import (
     LENGTH,
     bending_stiffness,
     frequencies,
     mass_per_length,
     tube,
 )
-from scipy.optimize import brentq
-from scipy.special import jv
-
-import offwind_pin as ow
 
 THIN = (1.0, 0.01)
 CRITICAL = 9 / 4 * brentq(lambda x: jv(-1 / 3, x), 1.5, 2.2) ** 2

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from helpers.numerics import fitted_order
-from helpers.piles import Array, LongPile
 
 import offwind_pin as ow
 from offwind_pin.analysis.condensation import condense
 from offwind_pin.analysis.pile import pile_only
 from offwind_pin.structure.chain import ELEMENT_LENGTH
+from offwind_pin.verification.long_pile import Array, LongPile
 
 PILE = LongPile()
 LOADS = {"force": (1e5, 0.0), "moment": (0.0, 1e6), "both": (1e5, 2e6)}

@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from helpers.plain import tube
 
 import offwind_pin as ow
 from offwind_pin.analysis.foundations import make_foundation
 from offwind_pin.structure.chain import build_chain
 from offwind_pin.structure.frustum import AxialBody
+from offwind_pin.verification.plain_tubes import tube
 
 FOUNDATIONS = ["clamped", "distributed_springs"]
 

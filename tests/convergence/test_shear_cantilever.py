@@ -3,7 +3,14 @@
 import numpy as np
 import pytest
 from helpers.numerics import fitted_order
-from helpers.plain import (
+from helpers.shear_beams import cowper, ritz_frequencies
+from numpy.typing import NDArray
+
+import offwind_pin as ow
+from offwind_pin.solve.eigen import natural_modes
+from offwind_pin.structure.chain import Element
+from offwind_pin.structure.section import shear_stiffness
+from offwind_pin.verification.plain_tubes import (
     DENSITY,
     DIAMETER,
     SHEAR,
@@ -14,13 +21,6 @@ from helpers.plain import (
     polar_inertia,
     tube,
 )
-from helpers.shear_beams import cowper, ritz_frequencies
-from numpy.typing import NDArray
-
-import offwind_pin as ow
-from offwind_pin.solve.eigen import natural_modes
-from offwind_pin.structure.chain import Element
-from offwind_pin.structure.section import shear_stiffness
 
 Array = NDArray[np.float64]
 

@@ -5,12 +5,11 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from offwind_pin.verification.orders import fitted_order
+
+__all__ = ["fitted_order"]
+
 Array = NDArray[np.float64]
-
-
-def fitted_order(sizes: Sequence[float] | Array, errors: Sequence[float] | Array) -> float:
-    """Slope of log error over log size by least squares: the observed order of convergence."""
-    return float(np.polyfit(np.log(sizes), np.log(np.abs(errors)), 1)[0])
 
 
 def central_differences(function: Callable[[Array], Array], x: Array, step: float) -> Array:

@@ -2,13 +2,20 @@
 
 import numpy as np
 import pytest
-from helpers.plain import LENGTH, YOUNG, bending_stiffness, equilibrium, frequencies, tube
 from helpers.states import random_state
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import offwind_pin as ow
 from offwind_pin.structure.chain import build_chain
+from offwind_pin.verification.plain_tubes import (
+    LENGTH,
+    YOUNG,
+    bending_stiffness,
+    equilibrium,
+    frequencies,
+    tube,
+)
 
 SMALL = 1e-6
 

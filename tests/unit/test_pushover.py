@@ -6,13 +6,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from helpers.piles import LongPile
 
 import offwind_pin as ow
 from offwind_pin.analysis.condensation import condense
 from offwind_pin.analysis.pile import pile_only
 from offwind_pin.analysis.pushover import pushover
 from offwind_pin.turbines.soil import CurveTable
+from offwind_pin.verification.long_pile import LongPile
 
 RIGID = LongPile(length=20.0, thickness=0.5, youngs_modulus=1e13)
 RESISTANCE = 1e6  # N/m, constant with depth

@@ -4,12 +4,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-import offwind_pin as ow
+from offwind_pin.turbines.base import Array
 from offwind_pin.turbines.definition import Turbine
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -68,7 +65,7 @@ class LongPile:
         water, stump = 20.0, 10.0
         linear = {"kind": "linear", "modulus_n_per_m2": {"at_mudline": self.modulus}}
         section = {"diameter_m": self.diameter, "thickness_m": self.thickness}
-        return ow.Turbine.model_validate(
+        return Turbine.model_validate(
             {
                 "name": "long_pile",
                 "site": {

@@ -3,11 +3,10 @@
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import eigh
 from scipy.optimize import brentq
 
-Array = NDArray[np.float64]
+from offwind_pin.turbines.base import Array
 
 
 def cantilever_roots(count: int) -> Array:

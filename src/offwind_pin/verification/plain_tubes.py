@@ -3,17 +3,15 @@
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
-import offwind_pin as ow
 from offwind_pin.analysis.static import StaticResult
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.points import PointLoad
 from offwind_pin.loads.tower_top import constant_load
 from offwind_pin.solve.eigen import natural_modes
 from offwind_pin.solve.newton import newton
-
-Array = NDArray[np.float64]
+from offwind_pin.turbines.base import Array
+from offwind_pin.turbines.definition import Turbine
 
 YOUNG, SHEAR, DENSITY = 2.0e11, 8.0e10, 8000.0
 LENGTH, DIAMETER, THICKNESS = 100.0, 6.0, 0.06
@@ -29,15 +27,16 @@ def tube(
     gravity: float = 0.0,
     top_mass: float = 1e-3,
     embedded: float = 0.0,
-) -> ow.Turbine:
+) -> Turbine:
     """A tube of one member, its diameter and wall (m) linear in height, mudline at z = -20 m.
 
-    The body on top is a thousandth of a kilogram unless told, 1e-9 of the tube, and a ball of 1 cm. ``model_copy`` does
-    not validate, so that gravity may be zero or huge, which no turbine file can ask for.
+    The body on top is a thousandth of a kilogram unless told, 1e-9 of the tube, and a ball of 1 cm.
+    ``model_copy`` does not validate, so that gravity may be zero or huge, which no turbine file can
+    ask for.
     """
     low = -20.0 - embedded
     high = -20.0 + length
-    turbine = ow.Turbine.model_validate(
+    turbine = Turbine.model_validate(
         {
             "name": "tube",
             "site": {
@@ -101,12 +100,13 @@ def equilibrium(
     rest = np.zeros(system.nv)
     found = newton(
         lambda q: equations.residual(0.0, q, rest, rest),
-        lambda q, residual: np.linalg.solve(equations.tangents(0.0, q, rest)[0], residual),
+        lambda q, r: np.asarray(np.linalg.solve(equations.tangents(0.0, q, rest)[0], r)),
         rest,
         scale=scale,
         relative_tolerance=1e-12,
     )
-    assert found.converged
+    if not found.converged:
+        raise RuntimeError("the plain tube has no equilibrium under this load")
     points = equations.chain_motion(found.x, rest).points_at(system.chain.boundary)
     return StaticResult(
         q=found.x,
@@ -129,8 +129,8 @@ FORE_AFT, TORSION = 1, 2
 def frequencies(system: System, count: int, joint: int = FORE_AFT) -> Array:
     """(count,) natural frequencies in rad/s of one family about the straight, upright state.
 
-    Upright, the families are uncoupled; taken one by one, a slender tube's torsion, a thousand times
-    faster, costs its bending no digits.
+    Upright, the families are uncoupled; taken one by one, a slender tube's torsion, a thousand
+    times faster, costs its bending no digits.
     """
     rest = np.zeros(system.nv)
     equations = system.equations((), ramp_time=np.inf)
@@ -138,7 +138,8 @@ def frequencies(system: System, count: int, joint: int = FORE_AFT) -> Array:
     mass = equations.mass(rest)
     family = np.arange(joint, system.nv, 3)
     others = np.setdiff1d(np.arange(system.nv), family)
-    assert np.abs(mass[np.ix_(family, others)]).max() <= 1e-12 * np.abs(mass).max()
+    if np.abs(mass[np.ix_(family, others)]).max() > 1e-12 * np.abs(mass).max():
+        raise RuntimeError("the families of joints are coupled; is the tube upright?")
     block = np.ix_(family, family)
     squares, _ = natural_modes(stiffness[block], mass[block], count)
-    return np.sqrt(squares)
+    return np.asarray(np.sqrt(squares))

@@ -1,0 +1,1 @@
+"""Every claim that has a check: one ledger of quantities, references and tolerances."""

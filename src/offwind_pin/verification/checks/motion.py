@@ -1,0 +1,167 @@
+"""Motion in time: order, energy, damping, and a second integrator."""
+
+from __future__ import annotations
+
+import json
+import tempfile
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from offwind_pin.analysis.aerodynamic_damping import aerodynamic_damping
+from offwind_pin.analysis.build import build
+from offwind_pin.analysis.integrators import GeneralizedAlpha, SciPyIVP
+from offwind_pin.analysis.transient import simulate
+from offwind_pin.campaign.case import load_case
+from offwind_pin.campaign.run import run_case
+from offwind_pin.dynamics.sea import IrregularWaves
+from offwind_pin.dynamics.system import System
+from offwind_pin.loads.rotor_thrust import Control, RotorThrust
+from offwind_pin.loads.tower_top import LoadHistory
+from offwind_pin.loads.wind_history import constant_wind
+from offwind_pin.solve.steps import FixedStep
+from offwind_pin.turbines.base import Array
+from offwind_pin.turbines.reader import load_turbine
+from offwind_pin.turbines.rotor_disc import rotor_disc
+from offwind_pin.verification.ledger import Found
+from offwind_pin.verification.orders import fitted_order
+
+
+@cache
+def _pushed_structure() -> System:
+    waves = IrregularWaves(2.0, 6.0, seed=3, repeat_period=60.0)
+    return build(load_turbine("oc6_phase2"), "distributed_springs", waves, elements=10)
+
+
+def _pushed(integrator: GeneralizedAlpha | SciPyIVP) -> Array:
+    """Seabed moment in N m over 8 s under waves and a smooth push; samples every 1/160 s."""
+    time = np.linspace(0.0, 8.0, 1281)
+    swell = (1 - np.cos(2 * np.pi * time / 8)) / 2
+    load = np.zeros((len(time), 6))
+    load[:, 0] = 5e5 + 1e6 * swell * np.sin(0.8 * np.pi * time)
+    load[:, 1] = 4e5 * swell * np.sin(1.4 * np.pi * time)
+    data = simulate(
+        _pushed_structure(),
+        8.0,
+        loads=[LoadHistory(time, load, "smooth")],
+        ramp=4.0,
+        output_dt=0.2,
+        integrator=integrator,
+        heights=[0.0],
+    )
+    return data["mudline_moment"].to_numpy()
+
+
+@cache
+def _by_steps(dt: float) -> Array:
+    return _pushed(GeneralizedAlpha(FixedStep(dt), 0.9, 1e-11, 1e-12))
+
+
+def order_in_time() -> float:
+    """Of the seabed moment in waves, against two finer steps extrapolated."""
+    fine, finest = _by_steps(0.0125), _by_steps(0.00625)
+    exact, steps = finest + (finest - fine) / 3, [0.1, 0.05, 0.025]
+    return fitted_order(steps, [float(np.abs(_by_steps(dt) - exact).max()) for dt in steps])
+
+
+def radau() -> float:
+    """Largest difference of the seabed moment from SciPy's Radau on Pinocchio's equations.
+
+    At a step of 0.00625 s, over the largest moment.
+    """
+    other = _pushed(SciPyIVP("Radau", 1e-7, 1e-9))
+    return float(np.abs(_by_steps(0.00625) - other).max() / np.abs(other).max())
+
+
+@cache
+def _load_case(name: str) -> dict[str, Any]:
+    """Summary of a shipped load case, run as a user runs it."""
+    case, folder = load_case(name)
+    with tempfile.TemporaryDirectory() as out:
+        run_case(case, folder, Path(out))
+        summary: dict[str, Any] = json.loads((Path(out) / "summary.json").read_text())
+    return summary
+
+
+def load_case_peak(name: str, peak: str) -> Found:
+    """Peak of the moment's spectrum near a mode in Hz, and the mode's own frequency."""
+    summary = _load_case(name)
+    near, natural = summary["psd_peaks_near_hz"], summary["natural_frequencies_hz"]
+    return Found(float(near[peak]), float(natural[peak]))
+
+
+def load_case_wave_peak(name: str) -> float:
+    """Peak of the moment's spectrum near the waves' in Hz."""
+    return float(_load_case(name)["psd_peaks_near_hz"]["wave"])
+
+
+def load_case_decades(name: str) -> float:
+    """Decades by which the band of the first mode exceeds that of the second."""
+    summary = _load_case(name)
+    return float(np.log10(summary["psd_sum_0p2_0p3"] / summary["psd_sum_1p0_1p5"]))
+
+
+def load_case_mean(name: str) -> Found:
+    """Mean seabed moment in N m, and that of statics under the mean loads."""
+    summary = _load_case(name)
+    static = summary["mudline_moment_y_static_under_mean_loads_Nm"]
+    return Found(float(summary["mudline_moment_y_mean_Nm"]), float(static))
+
+
+@cache
+def _energies() -> tuple[float, float]:
+    """Largest imbalance of LC 5.1's energies over 60 s in J, and what was dissipated."""
+    waves = IrregularWaves(1.25, 5.5, seed=1, repeat_period=600.0)
+    system = build(load_turbine("oc6_phase2"), "distributed_springs", waves, elements=20)
+    time = np.linspace(0.0, 60.0, 6001)
+    load = np.zeros((len(time), 6))
+    load[:, 0] = 1e6 * (1 - np.cos(2 * np.pi * time / 7.0))
+    data = simulate(system, 60.0, 0.01, [LoadHistory(time, load, "gusts")], ramp=20.0)
+    imbalance = float(np.abs(data["energy_balance"].to_numpy()).max())
+    return imbalance, float(data["energy_dissipated"].isel(time=-1).sum())
+
+
+def energy_balance() -> float:
+    """Largest imbalance over what was dissipated."""
+    imbalance, dissipated = _energies()
+    return imbalance / dissipated
+
+
+@cache
+def _rotor_structure() -> System:
+    turbine = load_turbine("oc6_phase2").model_copy(update={"structural_damping": None})
+    return build(turbine, "clamped", elements=8)
+
+
+def aerodynamic_decay(wind_speed: float, control: Control) -> Found:
+    """Damping ratio of FA1 in a free decay in a steady wind, and the linearised one."""
+    system = _rotor_structure()
+    told = aerodynamic_damping(system, wind_speed, control, count=3)
+    thrust = RotorThrust(rotor_disc(system.turbine), constant_wind(wind_speed), control)
+    kick = np.zeros((5, 6))
+    kick[1:3, 0] = 2e4
+    history = LoadHistory(np.array([0.0, 0.5, 1.0, 1.5, 50.0]), kick, "kick")
+    data = simulate(
+        system,
+        40.0,
+        0.02,
+        [thrust, history],
+        spectral_radius=1.0,
+        heights=[system.chain.top],
+    )
+    time = data["time"].to_numpy()
+    x = data["tower_top_displacement"].sel(direction="x").to_numpy()
+    x, time = (x - x[0])[time > 3], time[time > 3]
+
+    def misfit(p: Array) -> Array:
+        swing = p[2] * np.cos(p[1] * time) + p[3] * np.sin(p[1] * time)
+        return np.asarray(p[4] + np.exp(-p[0] * time) * swing - x)
+
+    size = float(np.std(x))
+    start = [0.0, 2 * np.pi * 0.274, size, size, 0.0]
+    fit = least_squares(misfit, start, x_scale=[0.01, 0.01, size, size, size])
+    ratio = float(fit.x[0] / np.hypot(fit.x[0], fit.x[1]))
+    return Found(ratio, float(told.ratio[told.label.index("FA1")]))
