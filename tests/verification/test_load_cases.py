@@ -41,9 +41,16 @@ def test_lc12_increase_over_clamped(tmp_path: Path) -> None:
     assert summary["status"] == "complete"
     assert summary["clamped_tower_top_x_m"] == pytest.approx(-0.2072, rel=3e-3)
     assert summary["increase_over_clamped_percent"] == pytest.approx(11.4, abs=0.2)
+    assert summary["simulated_s"] == 3000.0
     assert (tmp_path / "report.html").stat().st_size > 10_000
     with xr.open_dataset(tmp_path / "results.nc") as data:
         top = float(data["displacement"].sel(direction="x")[-1])
+        settling = data["settling_tower_top_displacement"].sel(direction="x").to_numpy()
+        off = data["settling_difference"].to_numpy()
+    assert settling[0] == 0
+    assert settling[-1] == pytest.approx(top, abs=1e-9)
+    assert off[0] > 0.2
+    assert off[-1] == summary["settled_difference_m"]
     assert top == pytest.approx(summary["tower_top_x_m"], rel=1e-6)
 
 

@@ -6,7 +6,7 @@ import hashlib
 import json
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal, get_args
 
 import numpy as np
 import xarray as xr
@@ -36,6 +36,7 @@ from offwind_pin.structure.urdf import definition_hash
 from offwind_pin.turbines.base import Array
 
 Progress = Callable[[float], None]
+Start = Literal["static", "undeformed"]
 
 _BLOCK_SECONDS = 20.0
 _BLOCK_STEPS = 2000
@@ -49,6 +50,7 @@ def simulate(
     loads: Sequence[PointLoad | LoadHistory | Array] = (),
     *,
     ramp: float = 0.0,
+    start: Start = "static",
     output_dt: float | None = None,
     spectral_radius: float = 0.9,
     integrator: Integrator | None = None,
@@ -60,8 +62,8 @@ def simulate(
 ) -> xr.Dataset:
     """Motion under waves and loads, by default by generalised-alpha with a fixed step.
 
-    The start is the static state under the mean loads. During the ramp, waves and the departures of
-    the loads from their means rise to full strength.
+    The start is the static state under the mean loads, at rest, unless told. During the ramp, waves
+    and the departures of the loads from their means rise to full strength.
 
     Parameters
     ----------
@@ -70,6 +72,8 @@ def simulate(
     loads : what acts: at the yaw bearing a constant load (6,) Fx, Fy, Fz, Mx, My, Mz in N and N m
         or a history, whose mean is taken over the time after the ramp; or point loads of one's own
     ramp : seconds over which the fluctuations rise
+    start : ``"static"``, or ``"undeformed"`` for a structure that gravity and mean loads seize at
+        time 0
     output_dt : interval of the output in s, a multiple of dt; by default every step
     spectral_radius : numerical damping at infinite frequency, 1 for none
     integrator : instead of ``dt`` and ``spectral_radius``, see
@@ -98,6 +102,8 @@ def simulate(
     InterruptedSimulation : the user stopped it; ``results`` holds the dataset so far
     """
     _check_settings(duration, dt, ramp, output_dt)
+    if start not in get_args(Start):
+        raise InputError("start", start, ", ".join(get_args(Start)), "Choose one.")
     interval = dt if output_dt is None else output_dt
     method = integrator or GeneralizedAlpha(FixedStep(dt), spectral_radius)
     outputs = round(duration / interval)
@@ -109,10 +115,13 @@ def simulate(
     chain = CompiledChain(system, acting, ramp_time=ramp)
     parts = _segments(system, segments)
     sections = chain.sections(_recorded_heights(system, heights, parts), parts)
-    start = static(system, loads=acting)
-    chain.memory = start.memory
-    state = method.begin(chain, start.q, interval)
-    attributes = _provenance(system, acting, ramp, interval, method) | (provenance or {})
+    q = np.zeros(system.nv)
+    if start == "static":
+        resting = static(system, loads=acting)
+        q, chain.memory = resting.q, resting.memory
+    state = method.begin(chain, q, interval)
+    attributes = _provenance(system, acting, ramp, interval, method)
+    attributes |= {"start": start} | (provenance or {})
     run = {
         **attributes,
         "duration_s": duration,

@@ -31,10 +31,15 @@ _COARSEST_OUTPUT = 0.3
 
 
 class StaticAnalysis(Definition):
-    """Equilibrium under gravity, if asked for beside that on another foundation."""
+    """Equilibrium under gravity, if asked for beside that on another foundation.
+
+    settle : for how long the undeformed structure is followed in time as it comes to rest under
+        gravity, beside the direct solution; or None
+    """
 
     kind: Literal["static"]
     compare_with: FoundationName | None = None
+    settle: Annotated[Positive, Field(ge=10, le=1e5)] | None = Field(alias="settle_s", default=None)
 
 
 class ModalAnalysis(Definition):

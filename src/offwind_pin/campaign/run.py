@@ -21,6 +21,7 @@ from offwind_pin.campaign.case import (
     TransientAnalysis,
 )
 from offwind_pin.campaign.output import check_writable
+from offwind_pin.campaign.settling import settle
 from offwind_pin.campaign.summaries import (
     moment_spectrum,
     summarise_damping,
@@ -108,14 +109,18 @@ def _solve(
     case: Case, turbine: Turbine, folder: Path, out: Path, progress: Progress | None
 ) -> CaseResult:
     if isinstance(case.analysis, StaticAnalysis):
-        return _solve_static(case, turbine, case.analysis, folder)
+        return _solve_static(case, turbine, case.analysis, folder, progress)
     if isinstance(case.analysis, ModalAnalysis):
         return _solve_modes(case, turbine, case.analysis, folder)
     return _solve_transient(case, turbine, case.analysis, folder, out, progress)
 
 
 def _solve_static(
-    case: Case, turbine: Turbine, analysis: StaticAnalysis, folder: Path
+    case: Case,
+    turbine: Turbine,
+    analysis: StaticAnalysis,
+    folder: Path,
+    progress: Progress | None,
 ) -> CaseResult:
     system = _build(case, turbine, case.foundation, folder)
     state = static(system)
@@ -129,7 +134,12 @@ def _solve_static(
         if reference != 0:
             increase = float(state.tower_top_displacement[0]) / reference - 1
             summary[f"increase_over_{analysis.compare_with}_percent"] = 100 * increase
-    return CaseResult(summary, static_to_dataset(system, state), system, None, statics)
+    data = static_to_dataset(system, state)
+    if analysis.settle is not None:
+        settling = settle(system, state, analysis.settle, progress)
+        summary |= settling.summary()
+        data = data.assign(settling.variables())
+    return CaseResult(summary, data, system, None, statics)
 
 
 def _solve_modes(case: Case, turbine: Turbine, analysis: ModalAnalysis, folder: Path) -> CaseResult:

@@ -86,6 +86,11 @@ def _load_case(name: str) -> dict[str, Any]:
     return summary
 
 
+def load_case_settled(name: str) -> float:
+    """Largest distance in m of the structure at rest, reached in time, from its static state."""
+    return float(_load_case(name)["settled_difference_m"])
+
+
 def load_case_peak(name: str, peak: str) -> Found:
     """Peak of the moment's spectrum near a mode in Hz, and the mode's own frequency."""
     summary = _load_case(name)
