@@ -79,6 +79,12 @@ def hysteretic(turbine: ow.Turbine) -> ow.Turbine:
     return with_springs(turbine, dashpot=None, hysteretic=Hysteresis(sliders=SLIDERS))
 
 
+def without_added_mass(turbine: ow.Turbine) -> ow.Turbine:
+    """As shipped, but the water neither moves with the structure nor adds to the waves' inertia."""
+    water = turbine.hydrodynamics.model_copy(update={"added_mass_coefficient": 0.0})
+    return turbine.model_copy(update={"hydrodynamics": water})
+
+
 def springs_of(turbine: ow.Turbine) -> DistributedSprings:
     springs = turbine.soil.distributed_springs
     assert springs is not None  # noqa: S101 - of the shipped turbine
@@ -101,6 +107,7 @@ MODELS = (
     Model(UNDAMPED, "distributed_springs", undamped),
     Model("springs, secant dashpots", "distributed_springs", damping="dashpots"),
     Model("springs, constant dashpots", "distributed_springs", constant, "dashpots"),
+    Model("secant dashpots, no added mass", "distributed_springs", without_added_mass, "dashpots"),
     Model("springs, hysteretic", "distributed_springs", hysteretic, "hysteresis"),
     Model("macro-element", "macro_element", damping="hysteresis"),
 )

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -22,8 +21,8 @@ PAGE = Path(__file__).resolve().parents[2] / "VERIFICATION.md"
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row.id)
 def test_row(row: Row) -> None:
     outcome = check(row)
-    if row.needs is not None and find_spec(row.needs) is None:
-        assert outcome.status == "not run"
+    if outcome.status == "not run":
+        assert row.needs not in {None, "mujoco"}  # which is in the development group
         pytest.skip(str(outcome.reason))
     assert outcome.status == "pass", f"{outcome.value} against {outcome.reference}"
 

@@ -56,6 +56,14 @@ def test_secant_and_constant_dashpots_are_alike(study: tuple[Numbers, str]) -> N
         np.testing.assert_allclose(secant, constant, rtol=0.02)
 
 
+def test_added_mass_shifts_the_second_mode_to_the_left(study: tuple[Numbers, str]) -> None:
+    """By 5 %, and hardly the first one, whose motion is above the water."""
+    numbers, _ = study
+    wet, dry = (numbers[n] for n in ("springs, secant dashpots", "secant dashpots, no added mass"))
+    assert 0.94 < wet["FA2_hz"][0] / dry["FA2_hz"][0] < 0.96
+    assert 0.998 < wet["FA1_hz"][0] / dry["FA1_hz"][0] < 1
+
+
 @pytest.mark.parametrize("name", ["springs, hysteretic", "macro-element"])
 def test_hysteresis_hardly_damps(study: tuple[Numbers, str], name: str) -> None:
     """It takes some heat, a tenth of the dashpots' or less, which hardly changes the sums."""

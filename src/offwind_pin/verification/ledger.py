@@ -15,7 +15,6 @@ from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
 from importlib.resources import files
-from importlib.util import find_spec
 from typing import Any, Literal
 
 import yaml
@@ -162,8 +161,9 @@ def choose(pattern: str | None) -> tuple[Row, ...]:
 
 def check(row: Row) -> Outcome:
     """Compute a row anew and compare."""
-    if row.needs is not None and find_spec(row.needs) is None:
-        return Outcome(row, None, row.reference, "not run", f"{row.needs} is not installed")
+    missing = None if row.needs is None else _missing(row.needs)
+    if missing is not None:
+        return Outcome(row, None, row.reference, "not run", missing)
     begun = time.perf_counter()
     found = row.function(**row.given)
     wall = time.perf_counter() - begun
@@ -175,6 +175,18 @@ def check(row: Row) -> Outcome:
         value, reference = float(found), row.reference
     near = math.isfinite(value) and distance(value, reference, row.kind) <= row.tolerance
     return Outcome(row, value, reference, "pass" if near else "fail", None, wall)
+
+
+@cache
+def _missing(peer: str) -> str | None:
+    """Why a program cannot be used, or None."""
+    try:
+        import_module(peer)
+    except ModuleNotFoundError:
+        return f"{peer} is not installed"
+    except Exception as error:  # whatever a foreign program raises, such as a missing library
+        return f"{peer} cannot be imported: {error}"
+    return None
 
 
 def verify(
