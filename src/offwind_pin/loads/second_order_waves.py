@@ -22,6 +22,7 @@ Eng. J. 21, 1981, 129), derived here anew.
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from offwind_pin.compiled import kernel
 from offwind_pin.errors import InputError
@@ -35,7 +36,7 @@ _STEP = 0.08
 
 Each pair is shared among six of them, by Lagrange's polynomials of fifth degree."""
 _NOTHING = 1e-14
-"""Parts of the convective acceleration that are rounding beside a pair's product of speeds."""
+"""Parts of a pair's convective acceleration that are but rounding of its factor of direction."""
 _WHERE = "second-order waves"
 
 
@@ -94,7 +95,6 @@ class SecondOrderWaves(WaveField):
             raise InputError(f"{_WHERE}, field cutoff", self.cutoff, allowed, remedy)
         order = taking[np.argsort(linear.harmonic[taking], kind="stable")]
         number, k = linear.harmonic[order].astype(np.int64), linear.wave_number[order]
-        angle = linear.direction[order]
         size = 1 + int(max(2 * number[-1], np.max(linear.harmonic)))
         self.harmonic = np.arange(size, dtype=float)
         self.wave_number = np.zeros(size)
@@ -106,9 +106,7 @@ class SecondOrderWaves(WaveField):
         self._convected = np.zeros((nodes if total_acceleration else 0, size, 3), dtype=complex)
         _pairs(
             number,
-            linear.omega[order],
-            k,
-            np.column_stack([np.cos(angle), np.sin(angle)]),
+            _columns(linear.omega[order], k, linear.direction[order], self.depth, self.gravity),
             np.asarray(linear.elevation[order], dtype=complex),
             self.depth,
             self.gravity,
@@ -149,11 +147,11 @@ class SecondOrderWaves(WaveField):
     def _placed(self, amplitude: ComplexArray) -> ComplexArray:
         """(..., m) from amplitudes (..., l) of the linear components."""
         result = np.zeros((*amplitude.shape[:-1], len(self.harmonic)), dtype=complex)
-        np.add.at(result, (..., self.linear.harmonic.astype(np.intp)), amplitude)
+        np.add.at(result.T, self.linear.harmonic.astype(np.intp), amplitude.T)
         return result
 
 
-def _check(linear: LinearWaves) -> None:
+def _check(linear: WaveField) -> None:
     """Refuse what the theory does not know."""
     if not isinstance(linear, LinearWaves):
         received, allowed = type(linear).__name__, "LinearWaves"
@@ -181,12 +179,20 @@ def _cutoff(linear: LinearWaves) -> float:
     return float(np.sqrt(2 * linear.gravity / height)) if height > 0 else np.inf
 
 
+def _columns(sigma: Array, k: Array, direction: Array, depth: float, gravity: float) -> Array:
+    """(n, 7) sigma, k, k_x, k_y, tanh k d, the surface's speed g k / sigma and Z of components."""
+    e = np.exp(-2 * k * depth)
+    speed = gravity * k / sigma
+    # g^2 k^2 / (sigma cosh^2 k d), without overflow
+    decayed = sigma * speed**2 * 4 * e / (1 + e) ** 2
+    x, y = k * np.cos(direction), k * np.sin(direction)
+    return np.column_stack([sigma, k, x, y, (1 - e) / (1 + e), speed, decayed])
+
+
 @kernel
 def _pairs(
-    number: Array,
-    sigma: Array,
-    k: Array,
-    towards: Array,
+    number: NDArray[np.int64],
+    waves: Array,
     amplitude: ComplexArray,
     depth: float,
     gravity: float,
@@ -195,60 +201,76 @@ def _pairs(
     potential: ComplexArray,
     convected: ComplexArray,
 ) -> None:
-    """Add all pairs of components, in rising order of their numbers, towards (n, 2) unit vectors.
+    """Add all pairs of components (n,), in rising order of their numbers, with their columns.
 
     elevation (m,) gets the amplitudes of the surface; potential (nodes, m, 3) those of i phi2, by
     node of kappa and harmonic, times K_x, K_y and kappa; convected (nodes, m, 3), unless it is
     empty, those of |grad phi1|^2 / 2 times K_x, K_y and the wave number of the profile
     """
-    count = len(sigma)
-    tanh, decayed, speed = np.empty(count), np.empty(count), np.empty(count)
-    for n in range(count):
-        e = np.exp(-2 * k[n] * depth)
-        tanh[n] = (1 - e) / (1 + e)
-        speed[n] = gravity * k[n] / sigma[n]
-        # g^2 k^2 / (sigma cosh^2 k d), without overflow
-        decayed[n] = sigma[n] * speed[n] ** 2 * 4 * e / (1 + e) ** 2
-    for n in range(count):
+    total = len(convected) > 0
+    for n in range(len(number)):
         for m in range(n + 1):
-            square, product = sigma[n] ** 2 + sigma[m] ** 2, sigma[n] * sigma[m]
-            cosine = towards[n, 0] * towards[m, 0] + towards[n, 1] * towards[m, 1]
-            dot, size = cosine * speed[n] * speed[m], speed[n] * speed[m]
-            half = 0.25 if n == m else 0.5
             for s in (1, -1):
-                both = half * amplitude[n] * (amplitude[m] if s == 1 else np.conj(amplitude[m]))
                 harmonic = number[n] + s * number[m]
-                x = k[n] * towards[n, 0] + s * k[m] * towards[m, 0]
-                y = k[n] * towards[n, 1] + s * k[m] * towards[m, 1]
-                d = dot - s * product
-                if harmonic == 0:
-                    # nothing drives a potential at Omega = 0
-                    elevation[0] += (square - d) / gravity * both.real
-                else:
-                    omega, kappa = sigma[n] + s * sigma[m], np.sqrt(x * x + y * y)
-                    e = np.exp(-2 * kappa * depth)
-                    detuning = gravity * kappa * (1 - e) / (1 + e) - omega * omega
-                    q = (2 * omega * d + decayed[n] + s * decayed[m]) / detuning
-                    elevation[harmonic] += (square - d - omega * q) / gravity * both
-                    _spread(potential, harmonic, kappa, depth, step, x, y, q * both)
-                if len(convected):
-                    # cosh cosh and sinh sinh are halves of cosh of the sum plus or minus of the
-                    # difference of wave numbers
-                    both_deep = tanh[n] * tanh[m]
-                    added = (dot - s * size) * (1 + both_deep) / 2
-                    taken = (dot + s * size) * (1 - both_deep) / 2
-                    if abs(added) > _NOTHING * size:
-                        _spread(convected, harmonic, k[n] + k[m], depth, step, x, y, added * both)
-                    if abs(taken) > _NOTHING * size:
-                        _spread(
-                            convected, harmonic, abs(k[n] - k[m]), depth, step, x, y, taken * both
-                        )
+                both = amplitude[n] * (amplitude[m] if s == 1 else np.conj(amplitude[m]))
+                both *= 0.25 if n == m else 0.5
+                node = potential[:, harmonic]
+                surface = _bind(s, waves[n], waves[m], both, depth, gravity, step, node)
+                elevation[harmonic] += surface if harmonic > 0 else surface.real
+                if total:
+                    _convect(s, waves[n], waves[m], both, depth, step, convected[:, harmonic])
+
+
+@kernel
+def _bind(
+    s: int,
+    one: Array,
+    two: Array,
+    both: complex,
+    depth: float,
+    gravity: float,
+    step: float,
+    node: ComplexArray,
+) -> complex:
+    """Add the potential of a pair, with the product f/2 a_n a_m; the amplitude of its surface."""
+    sigma, x, y = one[0] + s * two[0], one[2] + s * two[2], one[3] + s * two[3]
+    dot = (one[2] * two[2] + one[3] * two[3]) / (one[1] * two[1]) * one[5] * two[5]
+    d = dot - s * one[0] * two[0]
+    raised = one[0] ** 2 + two[0] ** 2 - d
+    if sigma == 0:
+        # nothing drives a potential
+        return raised / gravity * both
+    kappa = np.sqrt(x * x + y * y)
+    e = np.exp(-2 * kappa * depth)
+    detuning = gravity * kappa * (1 - e) / (1 + e) - sigma * sigma
+    q = (2 * sigma * d + one[6] + s * two[6]) / detuning
+    _spread(node, kappa, depth, step, x, y, q * both)
+    return (raised - sigma * q) / gravity * both
+
+
+@kernel
+def _convect(
+    s: int, one: Array, two: Array, both: complex, depth: float, step: float, node: ComplexArray
+) -> None:
+    """Add a pair's |grad phi1|^2 / 2.
+
+    Products of cosh and of sinh are halves of cosh of the sum plus or minus of the difference of
+    wave numbers.
+    """
+    x, y, size = one[2] + s * two[2], one[3] + s * two[3], one[5] * two[5]
+    cosine = (one[2] * two[2] + one[3] * two[3]) / (one[1] * two[1])
+    tanh = one[4] * two[4]
+    added = (cosine - s) * (1 + tanh) / 2
+    taken = (cosine + s) * (1 - tanh) / 2
+    if abs(added) > _NOTHING:
+        _spread(node, one[1] + two[1], depth, step, x, y, added * size * both)
+    if abs(taken) > _NOTHING:
+        _spread(node, abs(one[1] - two[1]), depth, step, x, y, taken * size * both)
 
 
 @kernel
 def _spread(
     node: ComplexArray,
-    harmonic: int,
     kappa: float,
     depth: float,
     step: float,
@@ -256,7 +278,7 @@ def _spread(
     y: float,
     value: complex,
 ) -> None:
-    """Add a value times x, y and kappa to a harmonic of (nodes, m, 3), to interpolate at kappa."""
+    """Add a value times x, y and kappa to (nodes, 3), so that they interpolate at kappa."""
     place = np.log1p(kappa * depth) / step
     first = min(max(int(place) - 2, 0), len(node) - 6)
     a = place - first
@@ -272,6 +294,6 @@ def _spread(
     )
     for j in range(6):
         part = share[j] * value
-        node[first + j, harmonic, 0] += x * part
-        node[first + j, harmonic, 1] += y * part
-        node[first + j, harmonic, 2] += kappa * part
+        node[first + j, 0] += x * part
+        node[first + j, 1] += y * part
+        node[first + j, 2] += kappa * part
