@@ -59,7 +59,7 @@ def bound_velocity(waves: SecondOrderWaves, height: Array) -> ComplexArray:
 # --- closed forms -----------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("depth", "period"), [(20.0, 10.0), (10.0, 9.0), (50.0, 6.0)])
+@pytest.mark.parametrize(("depth", "period"), [(20.0, 10.0), (10.0, 9.0), (50.0, 6.0), (1.0, 60.0)])
 def test_regular_wave_is_stokes(depth: float, period: float) -> None:
     """Elevation, set-down and velocity of Stokes' second order in finite depth.
 

@@ -99,7 +99,7 @@ class SecondOrderWaves(WaveField):
         self.harmonic = np.arange(size, dtype=float)
         self.wave_number = np.zeros(size)
         self.wave_number[1:] = wave_number(self.omega[1:], self.depth, self.gravity)
-        nodes = int(np.ceil(np.log1p(2 * np.max(k) * self.depth) / _STEP)) + 4
+        nodes = max(int(np.ceil(np.log1p(2 * np.max(k) * self.depth) / _STEP)) + 4, 6)
         self._node = np.expm1(_STEP * np.arange(nodes)) / self.depth
         self.bound = np.zeros(size, dtype=complex)
         self._potential = np.zeros((nodes, size, 3), dtype=complex)
