@@ -63,7 +63,7 @@ def bound_velocity(waves: SecondOrderWaves, height: Array) -> ComplexArray:
 def test_regular_wave_is_stokes(depth: float, period: float) -> None:
     """Elevation, set-down and velocity of Stokes' second order in finite depth.
 
-    Dean and Dalrymple, Water Wave Mechanics for Engineers and Scientists, 1984, 11.2.
+    Dean and Dalrymple, Water Wave Mechanics for Engineers and Scientists, 1984, chapter 11.
     """
     a = 0.7 * np.exp(0.4j)
     waves = second(free([1], [a], 0.5, depth, period))
@@ -111,7 +111,8 @@ def test_two_waves_in_deep_water() -> None:
 def sharma_and_dean(linear: LinearWaves, height: Array) -> tuple[ComplexArray, ComplexArray]:
     """Elevation (m,) and velocity (3, n, m) by their double sum over ordered pairs.
 
-    Sharma and Dean 1981, Eqs. 15-20, as OpenFAST's manual gives them, too.
+    The kernels of Sharma and Dean 1981 as the documentation of OpenFAST's Waves2 gives them, which
+    takes no potential for a wave's difference with itself, as here.
     """
     count = 2 * int(np.max(linear.harmonic)) + 1
     elevation = np.zeros(count, dtype=complex)
