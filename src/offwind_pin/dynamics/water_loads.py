@@ -123,13 +123,16 @@ def coefficients(
 ) -> tuple[Array, Array]:
     """Added-mass and drag coefficients (n,) of strips at heights (n,) in m in waves.
 
-    Above the mean water level the water moves as it does there.
+    Above the mean water level the water moves as it does there. Only free waves have a
+    Keulegan-Carpenter number: orbits of the slowest motions that they bind grow without end with
+    the period, and to the free waves they are a current.
     """
     hydrodynamics = turbine.hydrodynamics
     number = np.zeros(len(height))
     if waves is not None and hydrodynamics.needs_keulegan_carpenter:
-        velocity = waves.velocity(np.minimum(height - water_level, 0.0))
-        number = keulegan_carpenter(velocity, waves.omega, wetted_diameter(turbine, height))
+        free = waves.first_order
+        velocity = free.velocity(np.minimum(height - water_level, 0.0))
+        number = keulegan_carpenter(velocity, free.omega, wetted_diameter(turbine, height))
     added = coefficient_at(hydrodynamics.added_mass_coefficient, height, number)
     drag = coefficient_at(hydrodynamics.drag_coefficient, height, number)
     for layer in hydrodynamics.marine_growth:

@@ -39,6 +39,11 @@ class WaveField(ABC):
         """(m,) angular frequencies in rad/s."""
         return 2 * np.pi * self.harmonic / self.period
 
+    @property
+    def first_order(self) -> WaveField:
+        """The free waves alone, where the field tells them from what they bind; else all of it."""
+        return self
+
     @abstractmethod
     def velocity(self, height: Array) -> ComplexArray:
         """(3, n, m) complex amplitudes of the particle velocity in m/s.
