@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import logging
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
@@ -23,8 +24,8 @@ from offwind_pin.analysis.integrators import (
 from offwind_pin.analysis.static import static
 from offwind_pin.dynamics.compiled_chain import CompiledChain
 from offwind_pin.dynamics.equations import smooth_ramp
-from offwind_pin.dynamics.sea import IrregularWaves
 from offwind_pin.dynamics.system import System
+from offwind_pin.dynamics.wave_checks import check_waves, wave_facts
 from offwind_pin.errors import InputError, InterruptedSimulation, SolverError
 from offwind_pin.loads.points import PointLoad
 from offwind_pin.loads.python_load import PythonLoad
@@ -36,6 +37,8 @@ from offwind_pin.structure.urdf import definition_hash
 from offwind_pin.turbines.base import Array
 
 Progress = Callable[[float], None]
+
+_log = logging.getLogger(__name__)
 
 _BLOCK_SECONDS = 20.0
 _BLOCK_STEPS = 2000
@@ -105,6 +108,7 @@ def simulate(
         raise InputError(
             "duration", duration, f"a multiple of {interval} s, the output's interval", "Adjust it."
         )
+    check_waves(system, duration, ramp, method.describe().get("dt_s"))
     acting = [_at_yaw_bearing(system, load, ramp, duration) for load in loads]
     chain = CompiledChain(system, acting, ramp_time=ramp)
     parts = _segments(system, segments)
@@ -280,6 +284,20 @@ def _fingerprint(chain: CompiledChain, sections: Sections, duration: float) -> s
     return digest.hexdigest()
 
 
+def _told_of_waves(system: System) -> dict[str, Any]:
+    """Attributes of the realised waves; what there is to say of them goes to the log, too."""
+    facts = wave_facts(system)
+    notes, cautions = facts.pop("notes", []), facts.pop("cautions", [])
+    for note in notes:
+        _log.info("waves: %s", note)
+    for caution in cautions:
+        _log.warning("waves: %s", caution)
+    told = {f"wave_{name}": value for name, value in facts.items()}
+    if notes or cautions:
+        told["wave_notes"] = " | ".join([*notes, *cautions])
+    return told
+
+
 def _provenance(
     system: System, loads: Sequence[PointLoad], ramp: float, interval: float, method: Integrator
 ) -> dict[str, Any]:
@@ -290,7 +308,8 @@ def _provenance(
         "definition_sha256": definition_hash(system.turbine),
         "foundation": system.foundation.name,
         "sea": repr(system.sea) if system.sea else "dry",
-        "wave_seed": system.sea.seed if isinstance(system.sea, IrregularWaves) else -1,
+        "wave_seed": -1 if system.sea is None else system.sea.wave_seed,
+        **_told_of_waves(system),
         "tower_top_load_origin": "; ".join(history.origin for history in origins) or "none",
         "surrogates": " | ".join(text for text in surrogates if text) or "none",
         "elements": system.chain.elements,
