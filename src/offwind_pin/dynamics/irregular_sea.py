@@ -142,7 +142,7 @@ class IrregularWaves(LinearSea):
         low, high = self.target.band
         return np.arange(np.ceil(low / step), np.floor(high / step) + 1)
 
-    def waves(self, depth: float, gravity: float) -> LinearWaves:
+    def linear(self, depth: float, gravity: float) -> LinearWaves:
         """Components 1 / repeat_period apart, over the band of the spectrum.
 
         Raises

@@ -16,7 +16,7 @@ from offwind_pin.loads.surface_record import RecordHarmonics, SurfaceRecord, rea
 from offwind_pin.loads.wave_cautions import irregular_wave_cautions
 from offwind_pin.loads.wave_field import WaveField
 from offwind_pin.loads.wave_spectra import require_positive
-from offwind_pin.loads.wave_statistics import moments
+from offwind_pin.loads.wave_statistics import moments, peak_frequency
 
 MOST_LEFT_OUT = 0.05
 """Of the record's variance, beyond which cuts are told of as a caution."""
@@ -65,6 +65,12 @@ class MeasuredWaves(LinearSea):
         return MeasuredWaves(record, low_cut, high_cut, **settings)
 
     @property
+    def main_period(self) -> float:
+        found, duration = self._harmonics, self.record.duration
+        square = np.abs(found.elevation) ** 2
+        return 1 / peak_frequency(found.harmonic / duration, square, duration)
+
+    @property
     def longest_time(self) -> float:
         return self.record.duration
 
@@ -72,7 +78,7 @@ class MeasuredWaves(LinearSea):
     def _harmonics(self) -> RecordHarmonics:
         return self.record.harmonics(self.low_cut, self.high_cut, self.taper)
 
-    def waves(self, depth: float, gravity: float) -> LinearWaves:
+    def linear(self, depth: float, gravity: float) -> LinearWaves:
         found = self._harmonics
         if not np.any(found.elevation):
             received = f"no variance from {self.low_cut:g} to {self.high_cut:g} Hz"

@@ -81,6 +81,13 @@ class LinearSea(Sea):
 
     doppler: bool = False
 
+    def waves(self, depth: float, gravity: float) -> LinearWaves:
+        return self.linear(depth, gravity)
+
+    @abstractmethod
+    def linear(self, depth: float, gravity: float) -> LinearWaves:
+        """The free waves of first order, of which those of any higher order follow."""
+
     def __post_init__(self) -> None:
         if self.doppler and self.current is None:
             raise InputError(
@@ -157,7 +164,7 @@ class RegularWaves(LinearSea):
             require_positive(f"waves, field {name}", getattr(self, name))
         require_angle(self.direction_deg)
 
-    def waves(self, depth: float, gravity: float) -> LinearWaves:
+    def linear(self, depth: float, gravity: float) -> LinearWaves:
         return self.free_waves(
             self.period,
             np.ones(1),

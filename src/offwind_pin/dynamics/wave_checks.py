@@ -80,9 +80,7 @@ def check_waves(system: System, duration: float, ramp: float, dt: float | None) 
     if dt is None:
         return
     period = sea.main_period
-    if period is None:
-        period = moments(waves).zero_crossing_period
-    if period < FEWEST_STEPS * dt * (1 - 1e-9):
+    if period is not None and period < FEWEST_STEPS * dt * (1 - 1e-9):
         raise InputError(
             "dt",
             f"{dt:g} s, {period / dt:.3g} steps in the waves' period of {period:.3g} s",

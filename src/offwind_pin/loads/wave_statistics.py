@@ -48,12 +48,15 @@ def moments(waves: WaveField) -> WaveMoments:
     return WaveMoments(
         float(np.sum(variance)),
         float(np.sum(frequency**2 * variance)),
-        1 / _peak(frequency, variance, waves.period),
+        1 / peak_frequency(frequency, variance, waves.period),
     )
 
 
-def _peak(frequency: Array, variance: Array, period: float) -> float:
-    """Frequency in Hz of the largest running mean over neighbours 1 / period apart or more."""
+def peak_frequency(frequency: Array, variance: Array, period: float) -> float:
+    """Frequency in Hz at the largest running mean over 0.005 Hz of components (m,).
+
+    frequency (m,) in Hz, in steps of one over a period in s; variance (m,) in m2
+    """
     half = int(_PEAK_WIDTH * period / 2)
     if half == 0 or len(variance) <= 2 * half:
         return float(frequency[np.argmax(variance)])
