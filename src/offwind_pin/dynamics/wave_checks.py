@@ -63,7 +63,7 @@ def check_waves(system: System, duration: float, ramp: float, dt: float | None) 
     if longest is not None and duration > longest * (1 + 1e-9):
         raise InputError(
             "waves, repeat period",
-            f"{longest:g} s",
+            f"{longest:g} s of {sea.in_words}",
             f"at least the duration of the simulation ({duration:g} s)",
             "The waves would repeat: raise repeat_period, give a longer record, or shorten the "
             "simulation.",
