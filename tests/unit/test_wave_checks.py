@@ -141,7 +141,7 @@ def test_it_is_refused(
 
 
 def test_simulate_refuses_waves_that_repeat(oc6: ow.Turbine) -> None:
-    """Before anything is solved, with the remedy; a record counts by its length."""
+    """Before the first step, with the remedy; a record counts by its length."""
     with pytest.raises(ow.InputError, match="raise repeat_period"):
         ow.simulate(small(irregular(2.0, 8.0), oc6), 600.5, 0.5)
     time = np.arange(0, 100, 0.5)

@@ -108,7 +108,6 @@ def simulate(
         raise InputError(
             "duration", duration, f"a multiple of {interval} s, the output's interval", "Adjust it."
         )
-    check_waves(system, duration, ramp, method.describe().get("dt_s"))
     acting = [_at_yaw_bearing(system, load, ramp, duration) for load in loads]
     chain = CompiledChain(system, acting, ramp_time=ramp)
     parts = _segments(system, segments)
@@ -116,6 +115,7 @@ def simulate(
     start = static(system, loads=acting)
     chain.memory = start.memory
     state = method.begin(chain, start.q, interval)
+    check_waves(system, duration, ramp, method.describe().get("dt_s"))
     attributes = _provenance(system, acting, ramp, interval, method) | (provenance or {})
     run = {
         **attributes,
