@@ -118,6 +118,22 @@ def test_seed_sets_the_phases_alone() -> None:
     assert np.max(np.abs(np.angle(one.elevation / other.elevation))) > 1
 
 
+def test_draws_are_pinned() -> None:
+    """LC 5.1's phases are the first draws of its seed, its amplitudes those of the spectrum.
+
+    Whatever options are added, published results stay.
+    """
+    waves, period = sea(seed=1), 600.0
+    harmonic = np.arange(44, 546)
+    assert np.array_equal(waves.harmonic, harmonic)
+    phase = np.random.default_rng((1, 1)).uniform(0, 2 * np.pi, len(harmonic))
+    density = jonswap(harmonic / period, 1.25, 5.5, 1.0)
+    assert_allclose(
+        waves.elevation, np.sqrt(2 * density / period) * np.exp(-1j * phase), rtol=1e-12
+    )
+    assert waves.elevation[100] == pytest.approx(0.008961612148991153 + 0.03741093582958593j)
+
+
 def test_direction_turns_all_components() -> None:
     """Towards +y there is nothing along x."""
     velocity = sea(direction_deg=90.0).velocity(np.array([-3.0]))
