@@ -288,6 +288,20 @@ def test_the_crest_comes() -> None:
         assert np.argmax(near) == 100
 
 
+def test_the_crest_comes_in_short_crests_and_a_current() -> None:
+    """Also where components were blocked, and each goes its own way."""
+    waves = realised(
+        2,
+        spreading=ow.Spreading("cos_n", 4.0),
+        doppler=True,
+        current=ow.UniformCurrent(1.5, 180.0),
+        crest=ow.Crest(5.5, 900.0),
+    )
+    assert waves.blocked > 0
+    assert at(waves, np.array([900.0]))[0] == pytest.approx(5.5, abs=1e-11)
+    assert at(waves, np.array([900.0]), 1)[0] == pytest.approx(0.0, abs=1e-11)
+
+
 def test_mean_of_many_is_newwave() -> None:
     """Elevations about the crest average to its height times the autocovariance over m0.
 
@@ -334,9 +348,9 @@ def test_crests_that_cannot_be() -> None:
         realised(crest=ow.Crest(12.5, 100.0))
     with pytest.raises(ow.InputError, match=r"crest\.time"):
         realised(crest=ow.Crest(5.0, 20000.0))
-    waves = realised()
+    waves = realised(repeat_period=1800.0)
     v = np.abs(waves.elevation) ** 2 / 2
-    time = np.arange(0.0, 3000.0, 0.5)
+    time = np.arange(0.0, 1500.0, 1.0)
     # what is left of the curvature once the surface is lifted by the spectrum's own shape
     bend = at(waves, time, 2) + at(waves, time) * np.sum(waves.omega**2 * v) / np.sum(v)
     low = ow.Crest(0.01, float(time[np.argmax(bend)]))
@@ -389,3 +403,21 @@ def test_whole_spectrum_at_another_depth() -> None:
     f = np.array([0.08, 0.1, 0.2])
     spectrum = ow.JonswapSpectrum(6.0, 10.0, 3.3)
     assert_allclose(spectrum.density(f, 8.0, GRAVITY), jonswap(f, 6.0, 10.0, 3.3), rtol=0)
+
+
+def test_seas_in_words() -> None:
+    """A reader is told of every option, and of none that is left out."""
+    assert sea().in_words == "JONSWAP (gamma 3.3) waves, Hs 6 m, Tp 10 s"
+    told = sea(
+        amplitudes="random",
+        spreading=ow.Spreading("cos_2s", 8.0),
+        doppler=True,
+        current=ow.UniformCurrent(0.5),
+        crest=ow.Crest(5.0, 20.0),
+    ).in_words
+    assert told.endswith(
+        "random amplitudes, spread by cos^2s(theta/2), s = 8, carried by the current, a crest of "
+        "5 m at 20 s"
+    )
+    noise = ow.IrregularWaves(spectrum=ow.WhiteNoise(2.0, 0.1, 0.5), seed=1, repeat_period=600.0)
+    assert noise.in_words == "white noise from 0.1 to 0.5 Hz, Hs 2 m"

@@ -96,7 +96,8 @@ def simulate(
 
     Raises
     ------
-    InputError : an argument that cannot be used, or a history that is too short
+    InputError : an argument that cannot be used, a history that is too short, waves that would
+        repeat, or a time step too long for them
     SolverError : a step did not converge; ``results`` holds the dataset so far
     InterruptedSimulation : the user stopped it; ``results`` holds the dataset so far
     """

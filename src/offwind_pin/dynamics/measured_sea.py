@@ -126,7 +126,6 @@ class MeasuredWaves(LinearSea):
 
     @property
     def in_words(self) -> str:
-        return (
-            f"waves measured, {self.record.origin.split(' ')[0]}, from {self.low_cut:g} to "
-            f"{self.high_cut:g} Hz"
-        )
+        source = self.record.origin.split(" (SHA-256")[0]
+        told = f"waves measured, {source}, from {self.low_cut:g} to {self.high_cut:g} Hz"
+        return f"{told}, carried by the current" if self.doppler else told

@@ -81,13 +81,6 @@ class LinearSea(Sea):
 
     doppler: bool = False
 
-    def waves(self, depth: float, gravity: float) -> LinearWaves:
-        return self.linear(depth, gravity)
-
-    @abstractmethod
-    def linear(self, depth: float, gravity: float) -> LinearWaves:
-        """The free waves of first order, of which those of any higher order follow."""
-
     def __post_init__(self) -> None:
         if self.doppler and self.current is None:
             raise InputError(
@@ -96,6 +89,13 @@ class LinearSea(Sea):
                 "a current that carries the waves",
                 "Give one, or leave doppler out.",
             )
+
+    def waves(self, depth: float, gravity: float) -> LinearWaves:
+        return self.linear(depth, gravity)
+
+    @abstractmethod
+    def linear(self, depth: float, gravity: float) -> LinearWaves:
+        """The free waves of first order, of which those of any higher order follow."""
 
     def free_waves(
         self,
@@ -184,7 +184,8 @@ class RegularWaves(LinearSea):
 
     @property
     def in_words(self) -> str:
-        return f"regular waves, {self.height:g} m high, {self.period:g} s"
+        told = f"regular waves, {self.height:g} m high, {self.period:g} s"
+        return f"{told}, carried by the current" if self.doppler else told
 
 
 @dataclass(frozen=True)
