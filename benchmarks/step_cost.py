@@ -142,7 +142,7 @@ def operating(elements: int, seconds: float) -> tuple[ow.System, ow.LoadHistory]
     turbine = ow.load_turbine("oc6_phase2")
     if not isinstance(turbine.rna, RotorNacelleRNA):
         raise TypeError("the turbine has no rotor")
-    waves = ow.IrregularWaves(1.25, 5.5, seed=1, repeat_period=600.0)
+    waves = ow.IrregularWaves(1.25, 5.5, seed=1, repeat_period=max(seconds, 600.0))
     history = ow.SyntheticWind(9.06, 0.388, 0.1, seed=1).generate(
         turbine.rna, duration=seconds, repeat_period=600.0
     )

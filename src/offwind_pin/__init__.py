@@ -22,7 +22,9 @@ from offwind_pin.analysis.transient import simulate
 from offwind_pin.campaign.export import export_urdf
 from offwind_pin.campaign.soil_files import write_soil
 from offwind_pin.campaign.soil_overview import SoilOverview, soil_overview
-from offwind_pin.dynamics.sea import IrregularWaves, RegularWaves, StillWater, StreamWaves
+from offwind_pin.dynamics.irregular_sea import Crest, IrregularWaves
+from offwind_pin.dynamics.measured_sea import MeasuredWaves
+from offwind_pin.dynamics.sea import RegularWaves, StillWater, StreamWaves
 from offwind_pin.dynamics.system import System
 from offwind_pin.dynamics.wind_loads import tower_drag
 from offwind_pin.errors import InputError, InterruptedSimulation, OffwindError, SolverError
@@ -35,10 +37,13 @@ from offwind_pin.loads.current import (
 )
 from offwind_pin.loads.rotor_thrust import RotorThrust
 from offwind_pin.loads.rotor_turbulence import RotorWind
+from offwind_pin.loads.surface_record import SurfaceRecord
 from offwind_pin.loads.synthetic_wind import SyntheticWind
 from offwind_pin.loads.thrust_table import thrust_curve
 from offwind_pin.loads.tower_drag import TowerWind
 from offwind_pin.loads.tower_top import LoadHistory, read_load_history
+from offwind_pin.loads.wave_spectra import JonswapSpectrum, TableSpectrum, TmaSpectrum, WhiteNoise
+from offwind_pin.loads.wave_spreading import Spreading
 from offwind_pin.loads.wind_profile import ExtremeOperatingGust, LogLaw, PowerLaw, WindSeries
 from offwind_pin.solve.steps import AdaptiveStep, FixedStep
 from offwind_pin.turbines.definition import Turbine
@@ -48,6 +53,7 @@ from offwind_pin.turbines.rotor_disc import rotor_disc
 __all__ = [
     "AdaptiveStep",
     "Condensation",
+    "Crest",
     "CurrentSum",
     "CurrentTable",
     "DeflectionTarget",
@@ -59,8 +65,10 @@ __all__ = [
     "InputError",
     "InterruptedSimulation",
     "IrregularWaves",
+    "JonswapSpectrum",
     "LoadHistory",
     "LogLaw",
+    "MeasuredWaves",
     "ModalResult",
     "OffwindError",
     "Parameter",
@@ -74,15 +82,20 @@ __all__ = [
     "ShapeTarget",
     "SoilOverview",
     "SolverError",
+    "Spreading",
     "StaticResult",
     "StillWater",
     "StreamWaves",
     "SurfaceCurrent",
+    "SurfaceRecord",
     "SyntheticWind",
     "System",
+    "TableSpectrum",
+    "TmaSpectrum",
     "TowerWind",
     "Turbine",
     "UniformCurrent",
+    "WhiteNoise",
     "WindSeries",
     "aerodynamic_damping",
     "build",

@@ -15,7 +15,7 @@ INTEGRATORS = {
 def run(directory: Path, steps: str, duration: float = DURATION) -> None:
     """On soil in waves, so that a block's end holds everything a state consists of."""
     turbine = ow.load_turbine("oc6_phase2").model_copy(update={"structural_damping": None})
-    waves = ow.IrregularWaves(2.0, 6.0, seed=3, repeat_period=60.0)
+    waves = ow.IrregularWaves(2.0, 6.0, seed=3, repeat_period=DURATION)
     system = ow.build(turbine, "distributed_springs", waves, elements=4)
     ow.simulate(
         system,

@@ -27,7 +27,7 @@ FIXED_AND_ADAPTIVE = pytest.mark.parametrize("method", ["fixed", "adaptive"])
 
 @pytest.fixture(scope="module")
 def system(undamped: ow.Turbine) -> ow.System:
-    waves = ow.IrregularWaves(2.0, 6.0, seed=3, repeat_period=60.0)
+    waves = ow.IrregularWaves(2.0, 6.0, seed=3, repeat_period=120.0)
     return ow.build(undamped, "distributed_springs", waves, elements=4)
 
 

@@ -147,7 +147,11 @@ def test_rotor_of_the_docs(written: Path) -> None:
 def test_sea_of_the_docs(written: Path) -> None:
     """The sea that the page shows, and the other kinds it names, run with wind on the tower."""
     base = yaml.safe_load((written / "my_case.yaml").read_text())
-    shown = yaml.safe_load(_blocks("docs/case_file.md", "yaml")[1])
+    blocks = [yaml.safe_load(block) for block in _blocks("docs/case_file.md", "yaml")]
+    shown, irregular, measured = (block for block in blocks if list(block) == ["sea"])
+    time = np.arange(0, 60, 0.25)
+    rows = [f"{t},{2.5 * np.sin(0.7 * t):.4f}" for t in time]
+    (written / "buoy.csv").write_text("\n".join(["time_s,elevation_m", *rows]))
     del base["tower_top_load"]
     short = {"duration_s": 30.0, "ramp_s": 5.0, "dt_s": 0.05, "output_dt_s": 0.1}
     base["analysis"] |= short | {"psd_segment_s": 10.0}
@@ -159,8 +163,12 @@ def test_sea_of_the_docs(written: Path) -> None:
         "gust": {"size_m_per_s": 5.0, "start_s": 8.0},
     }
     regular = {"height_m": 6.0, "period_s": 9.0, "direction_deg": 90.0}
+    record = Case.model_validate(base | measured).sea.sea(1, 30.0, written)
+    assert record is not None
+    assert "buoy.csv" in record.in_words
     seas = [
         shown["sea"],
+        irregular["sea"],
         {"kind": "regular_waves", "stretching": "vertical", **regular},
         {"kind": "stream_function_waves", "crest_time_s": 10.0, **regular},
     ]
@@ -172,14 +180,15 @@ def test_sea_of_the_docs(written: Path) -> None:
             waves = data["wave_elevation"].sel(time=slice(10, 30))
             assert float(waves.max()) > 2.0
             force = data["mudline_force"].sel(time=slice(10, 30)).std("time")
-            lateral = "x" if number == 0 else "y"
+            lateral = "x" if number < 2 else "y"
             assert float(force.sel(direction=lateral)) > 1e5
 
 
 def test_tower_top_loads_of_the_docs(written: Path) -> None:
     """Every load that the page shows fits the case; the rotor's runs."""
     base = yaml.safe_load((written / "my_case.yaml").read_text())
-    loads = [yaml.safe_load(block) for block in _blocks("docs/case_file.md", "yaml")[2:]]
+    blocks = [yaml.safe_load(block) for block in _blocks("docs/case_file.md", "yaml")]
+    loads = [block for block in blocks if list(block) == ["tower_top_load"]]
     kinds = []
     for load in loads:
         case = Case.model_validate(base | load)
@@ -195,9 +204,18 @@ def test_tower_top_loads_of_the_docs(written: Path) -> None:
     assert {row["label"]: row["ratio"] for row in summary["aerodynamic_damping"]}["FA1"] > 0.03
 
 
+def test_sea_in_python(capsys: Any) -> None:
+    """The lines about the sea print what they say."""
+    block = _blocks("docs/case_file.md", "python")[0]
+    exec(block, {})  # our own text
+    words, count = capsys.readouterr().out.strip().splitlines()
+    assert words.startswith("TMA waves")
+    assert f"# {count}" in block
+
+
 def test_rotor_in_python(capsys: Any) -> None:
     """The lines of the case file's page print what they say."""
-    block = _blocks("docs/case_file.md", "python")[0]
+    block = _blocks("docs/case_file.md", "python")[1]
     exec(block, {})  # our own text
     curve, damping = capsys.readouterr().out.strip().splitlines()
     assert f"# {curve} MN" in block

@@ -8,11 +8,20 @@ from typing import Any
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from scipy.integrate import quad
+from scipy.integrate import quad, trapezoid
 
 import offwind_pin as ow
+from offwind_pin.loads.dispersion import wave_number
 from offwind_pin.loads.linear_waves import LinearWaves
-from offwind_pin.loads.wave_spectra import iec_peak_shape, jonswap, pierson_moskowitz
+from offwind_pin.loads.wave_spectra import (
+    depth_factor,
+    iec_peak_shape,
+    jonswap,
+    pierson_moskowitz,
+)
+from offwind_pin.loads.wave_statistics import moments
+
+GRAVITY = 9.80665
 
 
 def moment(shape: float, order: int, edges: tuple[float, ...]) -> float:
@@ -66,7 +75,8 @@ def test_shape_by_steepness() -> None:
     assert iec_peak_shape(1.0, 3.6001) == pytest.approx(5.0, rel=0.01)
     assert iec_peak_shape(1.0, 4.9999) == pytest.approx(1.0, rel=0.01)
     steep = ow.IrregularWaves(9.0, 9.0, seed=1, repeat_period=600.0, peak_shape="iec")
-    assert steep.shape == 5.0
+    assert isinstance(steep.target, ow.JonswapSpectrum)
+    assert steep.target.shape == 5.0
     assert "JONSWAP (gamma 5)" in steep.in_words
 
 
@@ -108,6 +118,22 @@ def test_seed_sets_the_phases_alone() -> None:
     assert np.max(np.abs(np.angle(one.elevation / other.elevation))) > 1
 
 
+def test_draws_are_pinned() -> None:
+    """LC 5.1's phases are the first draws of its seed, its amplitudes those of the spectrum.
+
+    Whatever options are added, published results stay.
+    """
+    waves, period = sea(seed=1), 600.0
+    harmonic = np.arange(44, 546)
+    assert np.array_equal(waves.harmonic, harmonic)
+    phase = np.random.default_rng((1, 1)).uniform(0, 2 * np.pi, len(harmonic))
+    density = jonswap(harmonic / period, 1.25, 5.5, 1.0)
+    assert_allclose(
+        waves.elevation, np.sqrt(2 * density / period) * np.exp(-1j * phase), rtol=1e-12
+    )
+    assert waves.elevation[100] == pytest.approx(0.008961612148991153 + 0.03741093582958593j)
+
+
 def test_direction_turns_all_components() -> None:
     """Towards +y there is nothing along x."""
     velocity = sea(direction_deg=90.0).velocity(np.array([-3.0]))
@@ -136,3 +162,107 @@ def test_seas_that_cannot_be(change: dict[str, Any]) -> None:
 def test_regular_waves_that_cannot_be(make: Any) -> None:
     with pytest.raises(ow.InputError, match="waves, field"):
         make()
+
+
+def test_depth_factor_by_its_definition() -> None:
+    """(k^-3 dk/domega) over that of deep water, with dk/domega by differences of the dispersion."""
+    f, step = np.array([0.03, 0.08, 0.15, 0.4]), 1e-6
+
+    def number(frequency: Any) -> Any:
+        return wave_number(2 * np.pi * frequency, 18.0, GRAVITY)
+
+    rate = (number(f + step) - number(f - step)) / (4 * np.pi * step)
+    omega = 2 * np.pi * f
+    deep = (omega**2 / GRAVITY) ** -3 * 2 * omega / GRAVITY
+    assert_allclose(depth_factor(f, 18.0, GRAVITY), number(f) ** -3 * rate / deep, rtol=1e-7)
+
+
+def test_depth_factor_in_deep_and_shallow_water() -> None:
+    """1 where the bottom is out of reach; omega^2 h / (2 g) where the waves are long."""
+    assert_allclose(depth_factor(np.array([0.2, 2.0]), 2000.0, GRAVITY), 1.0, rtol=1e-12)
+    f = np.array([1e-3, 2e-3])
+    small = (2 * np.pi * f) ** 2 * 5.0 / (2 * GRAVITY)
+    assert_allclose(depth_factor(f, 5.0, GRAVITY), small, rtol=1e-3)
+
+
+def test_tma_keeps_the_height() -> None:
+    """Its area is that of the JONSWAP spectrum of the same height, at 15 m as at 3000 m."""
+    spectrum = ow.TmaSpectrum(6.0, 10.0, 3.3)
+    f = np.linspace(0.02, 4.0, 400001)
+    whole = trapezoid(jonswap(f, 6.0, 10.0, 3.3), f)
+    for depth in (15.0, 30.0, 3000.0):
+        assert trapezoid(spectrum.density(f, depth, GRAVITY), f) == pytest.approx(whole, rel=2e-5)
+    assert not np.allclose(spectrum.density(f, 15.0, GRAVITY), jonswap(f, 6.0, 10.0, 3.3), rtol=0.1)
+
+
+def test_tma_is_the_depth_factor_times_jonswap() -> None:
+    """Their ratio is the same at all frequencies; in deep water it is 1."""
+    spectrum, f = ow.TmaSpectrum(6.0, 10.0, 3.3), np.linspace(0.05, 0.5, 60)
+    parent = jonswap(f, 6.0, 10.0, 3.3)
+    ratio = spectrum.density(f, 15.0, GRAVITY) / (parent * depth_factor(f, 15.0, GRAVITY))
+    assert_allclose(ratio, ratio[0], rtol=1e-12)
+    assert ratio[0] > 1.2
+    assert_allclose(spectrum.density(f, 5000.0, GRAVITY), parent, rtol=1e-12)
+
+
+def test_tma_sea_has_its_height() -> None:
+    """A realised sea in 15 m of water holds the height asked for, less what the band cuts off."""
+    waves = ow.IrregularWaves(
+        spectrum=ow.TmaSpectrum(3.0, 9.0, 3.3), seed=1, repeat_period=3600.0
+    ).waves(15.0, GRAVITY)
+    assert moments(waves).significant_height == pytest.approx(3.0, rel=0.01)
+    assert 8.4 < moments(waves).peak_period < 9.05
+
+
+def test_white_noise_is_flat() -> None:
+    """All components are alike, on the ends of the band as well, and hold the height asked for."""
+    noise = ow.IrregularWaves(
+        spectrum=ow.WhiteNoise(2.0, 0.05, 0.45), seed=2, repeat_period=3600.0
+    ).waves(30.0, GRAVITY)
+    assert noise.harmonic[0] == 180
+    assert noise.harmonic[-1] == 1620
+    variance = np.abs(noise.elevation) ** 2 / 2
+    assert_allclose(variance, 2.0**2 / 16 / 0.4 / 3600, rtol=1e-12)
+    # 1441 components stand at both ends of 1440 intervals
+    assert 16 * np.sum(variance) == pytest.approx(4.0 * 1441 / 1440, rel=1e-12)
+
+
+def test_table_gives_back_its_spectrum() -> None:
+    """A fine table of JONSWAP's densities gives JONSWAP's sea; beyond the table there is nothing."""
+    f = np.arange(0.04, 0.501, 0.001)
+    density = jonswap(f, 3.0, 8.0, 3.3)
+    table = ow.TableSpectrum(tuple(f), tuple(density))
+    assert table.significant_height == pytest.approx(4 * np.sqrt(trapezoid(density, f)), rel=1e-12)
+    assert table.peak_period == pytest.approx(8.0, rel=1e-9)
+    assert np.all(table.density(np.array([0.03, 0.51]), 30.0, GRAVITY) == 0)
+    mine = ow.IrregularWaves(spectrum=table, seed=1, repeat_period=1000.0).waves(30.0, GRAVITY)
+    exact = jonswap(mine.harmonic / 1000.0, 3.0, 8.0, 3.3)
+    assert_allclose(np.abs(mine.elevation) ** 2 / 2 * 1000.0, exact, rtol=1e-9)
+    assert "SHA-256" in repr(table)
+    assert repr(table) != repr(ow.TableSpectrum(tuple(f), tuple(2 * density)))
+
+
+@pytest.mark.parametrize(
+    ("frequency", "density", "words"),
+    [
+        ((0.1, 0.2), (1.0, 1.0), "three frequencies"),
+        ((0.1, 0.2, 0.3), (1.0, 1.0), "a density for each"),
+        ((0.1, 0.3, 0.2), (1.0, 1.0, 1.0), "Sort the table"),
+        ((0.0, 0.1, 0.2), (1.0, 1.0, 1.0), "positive"),
+        ((0.1, 0.2, 0.3), (1.0, -1.0, 1.0), "density at 0.2 Hz"),
+        ((0.1, 0.2, 0.3), (1.0, np.nan, 1.0), "finite"),
+        ((0.1, 0.2, 0.3), (0.0, 0.0, 0.0), "some variance"),
+        ((0.1, 0.11, 0.12, 0.3), (1.0, 1.0, 1.0, 1.0), "rows missing"),
+    ],
+)
+def test_tables_that_cannot_be(
+    frequency: tuple[float, ...], density: tuple[float, ...], words: str
+) -> None:
+    with pytest.raises(ow.InputError, match=words):
+        ow.TableSpectrum(frequency, density)
+
+
+@pytest.mark.parametrize(("low", "high"), [(0.5, 0.1), (0.0, 0.1), (0.1, np.inf)])
+def test_noise_that_cannot_be(low: float, high: float) -> None:
+    with pytest.raises(ow.InputError, match="waves, field"):
+        ow.WhiteNoise(2.0, low, high)

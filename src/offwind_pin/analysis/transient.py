@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import logging
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, Literal, get_args
@@ -23,8 +24,8 @@ from offwind_pin.analysis.integrators import (
 from offwind_pin.analysis.static import static
 from offwind_pin.dynamics.compiled_chain import CompiledChain
 from offwind_pin.dynamics.equations import smooth_ramp
-from offwind_pin.dynamics.sea import IrregularWaves
 from offwind_pin.dynamics.system import System
+from offwind_pin.dynamics.wave_checks import check_waves, wave_facts
 from offwind_pin.errors import InputError, InterruptedSimulation, SolverError
 from offwind_pin.loads.points import PointLoad
 from offwind_pin.loads.python_load import PythonLoad
@@ -37,6 +38,8 @@ from offwind_pin.turbines.base import Array
 
 Progress = Callable[[float], None]
 Start = Literal["static", "undeformed"]
+
+_log = logging.getLogger(__name__)
 
 _BLOCK_SECONDS = 20.0
 _BLOCK_STEPS = 2000
@@ -97,7 +100,8 @@ def simulate(
 
     Raises
     ------
-    InputError : an argument that cannot be used, or a history that is too short
+    InputError : an argument that cannot be used, a history that is too short, waves that would
+        repeat, or a time step too long for them
     SolverError : a step did not converge; ``results`` holds the dataset so far
     InterruptedSimulation : the user stopped it; ``results`` holds the dataset so far
     """
@@ -120,6 +124,7 @@ def simulate(
         resting = static(system, loads=acting)
         q, chain.memory = resting.q, resting.memory
     state = method.begin(chain, q, interval)
+    check_waves(system, duration, ramp, method.describe().get("dt_s"))
     attributes = _provenance(system, acting, ramp, interval, method)
     attributes |= {"start": start} | (provenance or {})
     run = {
@@ -289,6 +294,20 @@ def _fingerprint(chain: CompiledChain, sections: Sections, duration: float) -> s
     return digest.hexdigest()
 
 
+def _told_of_waves(system: System) -> dict[str, Any]:
+    """Attributes of the realised waves; what there is to say of them goes to the log, too."""
+    facts = wave_facts(system)
+    notes, cautions = facts.pop("notes", []), facts.pop("cautions", [])
+    for note in notes:
+        _log.info("waves: %s", note)
+    for caution in cautions:
+        _log.warning("waves: %s", caution)
+    told = {f"wave_{name}": value for name, value in facts.items()}
+    if notes or cautions:
+        told["wave_notes"] = " | ".join([*notes, *cautions])
+    return told
+
+
 def _provenance(
     system: System, loads: Sequence[PointLoad], ramp: float, interval: float, method: Integrator
 ) -> dict[str, Any]:
@@ -299,7 +318,8 @@ def _provenance(
         "definition_sha256": definition_hash(system.turbine),
         "foundation": system.foundation.name,
         "sea": repr(system.sea) if system.sea else "dry",
-        "wave_seed": system.sea.seed if isinstance(system.sea, IrregularWaves) else -1,
+        "wave_seed": -1 if system.sea is None else system.sea.wave_seed,
+        **_told_of_waves(system),
         "tower_top_load_origin": "; ".join(history.origin for history in origins) or "none",
         "surrogates": " | ".join(text for text in surrogates if text) or "none",
         "elements": system.chain.elements,

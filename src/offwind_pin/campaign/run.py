@@ -39,6 +39,7 @@ from offwind_pin.display.report import (
     write_report,
 )
 from offwind_pin.dynamics.system import System
+from offwind_pin.dynamics.wave_checks import wave_facts
 from offwind_pin.dynamics.wind_loads import tower_drag
 from offwind_pin.errors import InterruptedSimulation, SolverError
 from offwind_pin.loads.synthetic_wind import operate_rotor
@@ -207,6 +208,9 @@ def _solve_transient(
         "largest_residual": float(data["solver_residual"].max()),
         **top.summary(system, result, state),
     }
+    waves = wave_facts(system)
+    if waves:
+        summary["waves"] = waves
     return CaseResult(summary, data, system, result, {case.foundation: state}, spectrum, top.facts)
 
 

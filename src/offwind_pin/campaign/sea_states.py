@@ -9,7 +9,9 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import Field, model_validator
 
-from offwind_pin.dynamics.sea import IrregularWaves, RegularWaves, Sea, StillWater, StreamWaves
+from offwind_pin.dynamics.irregular_sea import Amplitudes, Crest, IrregularWaves
+from offwind_pin.dynamics.measured_sea import MeasuredWaves
+from offwind_pin.dynamics.sea import RegularWaves, Sea, StillWater, StreamWaves
 from offwind_pin.loads.current import (
     FASTEST,
     SURFACE_LAYER,
@@ -21,6 +23,14 @@ from offwind_pin.loads.current import (
     UniformCurrent,
 )
 from offwind_pin.loads.water_series import Stretching
+from offwind_pin.loads.wave_spectra import (
+    JonswapSpectrum,
+    TableSpectrum,
+    TmaSpectrum,
+    WaveSpectrum,
+    WhiteNoise,
+)
+from offwind_pin.loads.wave_spreading import LARGEST_EXPONENT, Spreading, SpreadingKind
 from offwind_pin.turbines.base import Definition, NonNegative, Number, Positive
 
 SHORTEST_REPEAT = 600.0
@@ -28,6 +38,9 @@ SHORTEST_REPEAT = 600.0
 
 Direction = Annotated[Number, Field(ge=-360, le=360)]
 WavePeriod = Annotated[Positive, Field(ge=1, le=30)]
+SignificantHeight = Annotated[Positive, Field(le=30)]
+Frequency = Annotated[Positive, Field(le=5)]
+PeakShapeInput = Annotated[Number, Field(ge=1, le=7)] | Literal["iec"]
 
 
 class CurrentProfile(Definition):
@@ -166,9 +179,23 @@ class Waves(Water):
 
     direction_deg: Direction = 0.0
     stretching: Stretching = "none"
+    order: Literal[1, 2] = 1
+    doppler: bool = False
+
+    @model_validator(mode="after")
+    def _doppler_has_a_current(self) -> Waves:
+        if self.doppler and self.order == 2:
+            raise ValueError("doppler: true goes with order: 1 only; leave one of them out")
+        if self.doppler and self.current is None:
+            raise ValueError("doppler: true needs a current; give it, or leave doppler out")
+        return self
 
     def settings(self) -> dict[str, Any]:
-        return super().settings() | {"stretching": self.stretching}
+        return super().settings() | {
+            "stretching": self.stretching,
+            "order": self.order,
+            "doppler": self.doppler,
+        }
 
 
 class RegularSea(Waves):
@@ -211,30 +238,178 @@ class StreamSea(Water):
         )
 
 
-class IrregularSea(Waves):
-    """Waves of a spectrum; the case's seed draws their phases."""
+class SpectrumInput(Definition):
+    """What every spectrum of a case file has."""
 
-    kind: Literal["irregular_waves"]
-    significant_height: Annotated[Positive, Field(le=30)] = Field(alias="significant_height_m")
+    @property
+    def marked_frequency(self) -> float | None:
+        """Of its peak in Hz, where that is known before a file is read."""
+        return None
+
+    @abstractmethod
+    def spectrum(self, folder: Path) -> WaveSpectrum:
+        """For :class:`IrregularWaves`."""
+
+
+class JonswapInput(SpectrumInput):
+    """See :class:`JonswapSpectrum`."""
+
+    kind: Literal["jonswap"]
+    significant_height: SignificantHeight = Field(alias="significant_height_m")
     peak_period: WavePeriod = Field(alias="peak_period_s")
-    peak_shape: Annotated[Number, Field(ge=1, le=7)] | Literal["iec"] = 1.0
+    peak_shape: PeakShapeInput = 1.0
 
     @property
     def marked_frequency(self) -> float | None:
         return 1 / self.peak_period
 
+    def spectrum(self, folder: Path) -> WaveSpectrum:
+        return JonswapSpectrum(self.significant_height, self.peak_period, self.peak_shape)
+
+
+class TmaInput(JonswapInput):
+    """See :class:`TmaSpectrum`."""
+
+    kind: Literal["tma"]  # type: ignore[assignment]
+
+    def spectrum(self, folder: Path) -> WaveSpectrum:
+        return TmaSpectrum(self.significant_height, self.peak_period, self.peak_shape)
+
+
+class WhiteNoiseInput(SpectrumInput):
+    """See :class:`WhiteNoise`."""
+
+    kind: Literal["white_noise"]
+    significant_height: SignificantHeight = Field(alias="significant_height_m")
+    lowest: Frequency = Field(alias="lowest_hz")
+    highest: Frequency = Field(alias="highest_hz")
+
+    def spectrum(self, folder: Path) -> WaveSpectrum:
+        return WhiteNoise(self.significant_height, self.lowest, self.highest)
+
+
+class TableInput(SpectrumInput):
+    """Densities at frequencies, here or in a CSV file; see :class:`TableSpectrum`."""
+
+    kind: Literal["table"]
+    file: Path | None = None
+    frequency: tuple[Number, ...] = Field(alias="frequency_hz", default=())
+    density: tuple[Number, ...] = Field(alias="density_m2_per_hz", default=())
+
+    @model_validator(mode="after")
+    def _here_or_there(self) -> TableInput:
+        if (self.file is None) == (not self.frequency and not self.density):
+            raise ValueError("give either file, or frequency_hz and density_m2_per_hz")
+        return self
+
+    @property
+    def marked_frequency(self) -> float | None:
+        if self.file is not None or len(self.frequency) != len(self.density):
+            return None
+        return self.frequency[int(np.argmax(self.density))]
+
+    def spectrum(self, folder: Path) -> WaveSpectrum:
+        if self.file is not None:
+            return TableSpectrum.read(folder / self.file)
+        return TableSpectrum(self.frequency, self.density, "field sea.spectrum")
+
+
+SpectrumChoice = Annotated[
+    JonswapInput | TmaInput | WhiteNoiseInput | TableInput, Field(discriminator="kind")
+]
+
+
+class SpreadingInput(Definition):
+    """See :class:`Spreading`."""
+
+    kind: SpreadingKind
+    exponent: Annotated[Positive, Field(le=LARGEST_EXPONENT)]
+
+
+class CrestInput(Definition):
+    """See :class:`Crest`."""
+
+    height: Annotated[Positive, Field(le=40)] = Field(alias="height_m")
+    time: NonNegative = Field(alias="time_s")
+
+
+class IrregularSea(Waves):
+    """Waves of a spectrum; the case's seed draws them.
+
+    Height, period and peak shape are short for a JONSWAP spectrum.
+    """
+
+    kind: Literal["irregular_waves"]
+    significant_height: SignificantHeight | None = Field(alias="significant_height_m", default=None)
+    peak_period: WavePeriod | None = Field(alias="peak_period_s", default=None)
+    peak_shape: PeakShapeInput = 1.0
+    spectrum: SpectrumChoice | None = None
+    amplitudes: Amplitudes = "deterministic"
+    spreading: SpreadingInput | None = None
+    crest: CrestInput | None = None
+    repeat_period: Annotated[Positive, Field(le=1e6)] | None = Field(
+        alias="repeat_period_s", default=None
+    )
+
+    @model_validator(mode="after")
+    def _one_spectrum(self) -> IrregularSea:
+        given = self.model_fields_set & {"significant_height", "peak_period", "peak_shape"}
+        if self.spectrum is not None and given:
+            raise ValueError(
+                "a spectrum has a height, a period and a shape of its own; put "
+                f"{', '.join(sorted(given))} into it, or leave spectrum out"
+            )
+        if self.spectrum is None and (self.significant_height is None or self.peak_period is None):
+            raise ValueError(
+                "give significant_height_m and peak_period_s (both required), or a spectrum"
+            )
+        return self
+
+    @property
+    def marked_frequency(self) -> float | None:
+        if self.spectrum is not None:
+            return self.spectrum.marked_frequency
+        return None if self.peak_period is None else 1 / self.peak_period
+
     def sea(self, seed: int, duration: float, folder: Path) -> Sea:
+        crest, spreading = self.crest, self.spreading
+        repeat = self.repeat_period
         return IrregularWaves(
             self.significant_height,
             self.peak_period,
             seed=seed,
-            repeat_period=max(duration, SHORTEST_REPEAT),
+            repeat_period=max(duration, SHORTEST_REPEAT) if repeat is None else repeat,
             peak_shape=self.peak_shape,
             direction_deg=self.direction_deg,
+            spectrum=None if self.spectrum is None else self.spectrum.spectrum(folder),
+            amplitudes=self.amplitudes,
+            spreading=None if spreading is None else Spreading(spreading.kind, spreading.exponent),
+            crest=None if crest is None else Crest(crest.height, crest.time),
+            **self.settings(),
+        )
+
+
+class MeasuredSea(Waves):
+    """A measured surface; see :class:`MeasuredWaves`."""
+
+    kind: Literal["measured_waves"]
+    file: Path
+    low_cut: Frequency = Field(alias="low_cut_hz")
+    high_cut: Frequency = Field(alias="high_cut_hz")
+    taper: NonNegative | None = Field(alias="taper_s", default=None)
+
+    def sea(self, seed: int, duration: float, folder: Path) -> Sea:
+        return MeasuredWaves.read(
+            folder / self.file,
+            self.low_cut,
+            self.high_cut,
+            direction_deg=self.direction_deg,
+            taper=self.taper,
             **self.settings(),
         )
 
 
 SeaChoice = Annotated[
-    DrySea | StillSea | RegularSea | StreamSea | IrregularSea, Field(discriminator="kind")
+    DrySea | StillSea | RegularSea | StreamSea | IrregularSea | MeasuredSea,
+    Field(discriminator="kind"),
 ]

@@ -22,6 +22,7 @@ from offwind_pin.display.wording import (
     significant_digits,
 )
 from offwind_pin.dynamics.system import System
+from offwind_pin.dynamics.wave_checks import wave_facts
 from offwind_pin.loads.synthetic_wind import AIR_DENSITY
 from offwind_pin.structure.urdf import definition_hash
 
@@ -162,6 +163,7 @@ def structure_facts(system: System) -> list[tuple[str, str]]:
     facts = [
         ("foundation", foundation_name(system.foundation.name)),
         ("sea", describe_sea(system)),
+        *_realised_waves(system),
         ("height, mudline to yaw bearing", quantity(chain.top - mudline, "m", 5)),
         ("water depth", quantity(turbine.site.water_depth, "m", 3)),
     ]
@@ -180,6 +182,25 @@ def structure_facts(system: System) -> list[tuple[str, str]]:
 def describe_sea(system: System) -> str:
     """The sea in words."""
     return "none (dry)" if system.sea is None else system.sea.in_words
+
+
+def _realised_waves(system: System) -> list[tuple[str, str]]:
+    """One line about the waves as they came out, none without waves."""
+    facts = wave_facts(system)
+    if not facts:
+        return []
+    told = []
+    if "significant_height_m" in facts:
+        told += [
+            f"Hs {quantity(facts['significant_height_m'], 'm', 3)}",
+            f"Tp {quantity(facts['peak_period_s'], 's', 3)}",
+        ]
+    told += [
+        f"Tz {quantity(facts['zero_crossing_period_s'], 's', 3)}",
+        f"highest crest {quantity(facts['highest_crest_m'], 'm', 3)}",
+        f"lowest trough {quantity(facts['lowest_trough_m'], 'm', 3)}",
+    ]
+    return [("waves as realised", ", ".join(told))]
 
 
 def mode_rows(report: CaseReport) -> list[ModeRow]:

@@ -4,22 +4,26 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 
 from offwind_pin.errors import InputError
 from offwind_pin.loads.current import Current, CurrentSum, mean_velocity
 from offwind_pin.loads.linear_waves import LinearWaves
+from offwind_pin.loads.second_order_waves import SecondOrderWaves
 from offwind_pin.loads.steady_wave import SteadyWave
 from offwind_pin.loads.stream_function import StreamFunctionWaves
 from offwind_pin.loads.water_series import Stretching
+from offwind_pin.loads.wave_cautions import regular_wave_cautions
 from offwind_pin.loads.wave_field import WaveField
-from offwind_pin.loads.wave_spectra import iec_peak_shape, jonswap
-from offwind_pin.turbines.base import Array
+from offwind_pin.loads.wave_spectra import require_positive
+from offwind_pin.turbines.base import Array, ComplexArray
 
-_STREAM = 1
-"""Keeps the random numbers of waves and wind apart when a case gives both one seed."""
+Order = Literal[1, 2]
+
+MOST_BLOCKED = 0.05
+"""Of the variance, that an opposing current may stop."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,6 +50,115 @@ class Sea(ABC):
     def in_words(self) -> str:
         """The waves as a reader is told of them."""
 
+    @property
+    def wave_seed(self) -> int:
+        """What draws the waves, or -1 where nothing is drawn."""
+        return -1
+
+    @property
+    def longest_time(self) -> float | None:
+        """In s, after which waves that should not repeat do so; None where that is no matter."""
+        return None
+
+    @property
+    def main_period(self) -> float | None:
+        """In s, of the waves that hold most of the variance, if it is known beforehand."""
+        return None
+
+    def cautions(self, waves: WaveField) -> list[str]:
+        """Sentences about its waves where they look like a mistake, or leave their theory.
+
+        waves : those of first order
+        """
+        return []
+
+    def notes(self) -> list[str]:
+        """Sentences about what was done to the numbers that the user gave."""
+        return []
+
+
+@dataclass(frozen=True, kw_only=True)
+class LinearSea(Sea):
+    """What seas of free linear waves have.
+
+    order : 1 for linear waves, 2 for what every two of them bind at the sums and differences of
+        their frequencies as well, see :class:`SecondOrderWaves`
+    doppler : whether the current carries the waves. Then their frequencies are those that a fixed
+        observer sees, and their lengths those on water that flows everywhere as the current does
+        in the mean over the depth, along each of them. The heights stay those given.
+    """
+
+    order: Order = 1
+    doppler: bool = False
+
+    def __post_init__(self) -> None:
+        if self.order not in get_args(Order):
+            raise InputError("waves, field order", self.order, "1 or 2", "Choose one.")
+        if self.order == 2 and self.doppler:
+            raise InputError(
+                "waves, field order",
+                "2 with doppler",
+                "waves of second order on water at rest",
+                "Leave doppler out, or use order 1; the current itself may stay.",
+            )
+        if self.doppler and self.current is None:
+            raise InputError(
+                "waves, field doppler",
+                "no current",
+                "a current that carries the waves",
+                "Give one, or leave doppler out.",
+            )
+
+    def waves(self, depth: float, gravity: float) -> LinearWaves | SecondOrderWaves:
+        waves = self.linear(depth, gravity)
+        return waves if self.order == 1 else SecondOrderWaves(waves)
+
+    @abstractmethod
+    def linear(self, depth: float, gravity: float) -> LinearWaves:
+        """The free waves of first order, of which those of any higher order follow."""
+
+    def free_waves(
+        self,
+        period: float,
+        harmonic: Array,
+        elevation: ComplexArray,
+        depth: float,
+        gravity: float,
+        direction: Array | float,
+    ) -> LinearWaves:
+        """Components as :meth:`LinearWaves.free` has them, in the current if that carries them.
+
+        Raises
+        ------
+        InputError : the current blocks too much of the waves
+        """
+        if not self.doppler or self.current is None:
+            return LinearWaves.free(period, harmonic, elevation, depth, gravity, direction)
+        mean = mean_velocity(self.current, depth)
+        waves = LinearWaves.in_current(period, harmonic, elevation, depth, gravity, direction, mean)
+        if waves.blocked > MOST_BLOCKED:
+            raise InputError(
+                "waves, field doppler",
+                f"an opposing current that blocks {100 * waves.blocked:.3g} % of the variance",
+                f"at most {100 * MOST_BLOCKED:g} %",
+                "Such waves cannot reach the structure: check the current and its direction.",
+            )
+        return waves
+
+    @property
+    def theory_in_words(self) -> str:
+        """What follows the waves' name: nothing for linear waves that no current carries."""
+        told = ", to second order" if self.order == 2 else ""
+        return f"{told}, carried by the current" if self.doppler else told
+
+    def cautions(self, waves: WaveField) -> list[str]:
+        if isinstance(waves, LinearWaves) and waves.blocked > 0:
+            return [
+                f"the opposing current blocks {100 * waves.blocked:.2g} % of the variance, in the "
+                "shortest waves; they are left out"
+            ]
+        return []
+
 
 @dataclass(frozen=True)
 class StillWater(Sea):
@@ -60,7 +173,7 @@ class StillWater(Sea):
 
 
 @dataclass(frozen=True)
-class RegularWaves(Sea):
+class RegularWaves(LinearSea):
     """A linear wave of one height and period, its crest at the axis at time 0.
 
     height in m from trough to crest, period in s, direction_deg in which it travels, from +x
@@ -72,12 +185,13 @@ class RegularWaves(Sea):
     direction_deg: float = 0.0
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         for name in ("height", "period"):
             require_positive(f"waves, field {name}", getattr(self, name))
         require_angle(self.direction_deg)
 
-    def waves(self, depth: float, gravity: float) -> LinearWaves:
-        return LinearWaves.free(
+    def linear(self, depth: float, gravity: float) -> LinearWaves:
+        return self.free_waves(
             self.period,
             np.ones(1),
             np.array([self.height / 2 + 0j]),
@@ -87,8 +201,17 @@ class RegularWaves(Sea):
         )
 
     @property
+    def main_period(self) -> float:
+        return self.period
+
+    def cautions(self, waves: WaveField) -> list[str]:
+        k = float(waves.wave_number[0])
+        told = regular_wave_cautions(self.height, k, waves.depth, self.order)
+        return super().cautions(waves) + told
+
+    @property
     def in_words(self) -> str:
-        return f"regular waves, {self.height:g} m high, {self.period:g} s"
+        return f"regular waves, {self.height:g} m high, {self.period:g} s{self.theory_in_words}"
 
 
 @dataclass(frozen=True)
@@ -132,67 +255,12 @@ class StreamWaves(Sea):
         return StreamFunctionWaves(wave, direction=angle, crest_time=self.crest_time)
 
     @property
+    def main_period(self) -> float:
+        return self.period
+
+    @property
     def in_words(self) -> str:
         return f"stream function wave, {self.height:g} m high, {self.period:g} s"
-
-
-@dataclass(frozen=True)
-class IrregularWaves(Sea):
-    """Waves of a JONSWAP spectrum, with a peak shape of 1 of Pierson and Moskowitz's.
-
-    significant_height in m, peak_period in s; repeat_period in s should exceed the case's length;
-    peak_shape from 1 to 7, or ``"iec"`` for IEC's rule; direction_deg in which they travel, from +x
-    towards +y
-    """
-
-    significant_height: float
-    peak_period: float
-    seed: int
-    repeat_period: float
-    peak_shape: float | Literal["iec"] = 1.0
-    direction_deg: float = 0.0
-
-    def __post_init__(self) -> None:
-        for name in ("significant_height", "peak_period", "repeat_period"):
-            require_positive(f"waves, field {name}", getattr(self, name))
-        if self.repeat_period < 5 * self.peak_period:
-            allowed = f"at least five peak periods ({5 * self.peak_period} s)"
-            raise InputError("waves, field repeat_period", self.repeat_period, allowed, "Raise it.")
-        if not (isinstance(self.seed, int) and self.seed >= 0):
-            raise InputError("waves, field seed", self.seed, "a whole number from 0", "Correct it.")
-        if self.peak_shape != "iec" and not (
-            isinstance(self.peak_shape, int | float) and 1 <= self.peak_shape <= 7
-        ):
-            allowed = "1 to 7, or iec"
-            raise InputError("waves, field peak_shape", self.peak_shape, allowed, "Correct it.")
-        require_angle(self.direction_deg)
-
-    @property
-    def shape(self) -> float:
-        """The peak-shape factor as a number."""
-        if self.peak_shape == "iec":
-            return iec_peak_shape(self.significant_height, self.peak_period)
-        return float(self.peak_shape)
-
-    def waves(self, depth: float, gravity: float) -> LinearWaves:
-        """Components from 0.4 to 5 times the peak frequency.
-
-        They hold 99.8 % of the variance, and shorter waves are lost on a cylinder many times their
-        length.
-        """
-        step, peak = 1 / self.repeat_period, 1 / self.peak_period
-        harmonic: Array = np.arange(np.ceil(0.4 * peak / step), np.floor(5 * peak / step) + 1)
-        density = jonswap(harmonic * step, self.significant_height, self.peak_period, self.shape)
-        phase = np.random.default_rng((self.seed, _STREAM)).uniform(0, 2 * np.pi, len(harmonic))
-        amplitude = np.sqrt(2 * density * step) * np.exp(-1j * phase)
-        angle = float(np.radians(self.direction_deg))
-        return LinearWaves.free(self.repeat_period, harmonic, amplitude, depth, gravity, angle)
-
-    @property
-    def in_words(self) -> str:
-        height, period = self.significant_height, self.peak_period
-        kind = "Pierson-Moskowitz" if self.shape == 1 else f"JONSWAP (gamma {self.shape:.3g})"
-        return f"{kind} waves, Hs {height:g} m, Tp {period:g} s"
 
 
 def require_angle(direction_deg: float) -> None:
@@ -200,9 +268,3 @@ def require_angle(direction_deg: float) -> None:
     if not np.isfinite(direction_deg):
         where = "waves, field direction_deg"
         raise InputError(where, direction_deg, "an angle in degrees", "Correct it.")
-
-
-def require_positive(where: str, value: float) -> None:
-    """Refuse what is no positive number."""
-    if not (np.isfinite(value) and value > 0):
-        raise InputError(where, value, "a positive number", "Correct it.")

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from offwind_pin.loads.dispersion import wave_number
+from offwind_pin.loads.dispersion import wave_number, wave_number_in_current
 from offwind_pin.loads.wave_field import WaveField
 from offwind_pin.turbines.base import Array, ComplexArray
 
@@ -23,6 +23,7 @@ class LinearWaves(WaveField):
     direction : (m,) in rad towards which each component travels, from +x towards +y
     wave_number : (m,) in rad/m
     carried : (m,) current in m/s along each component that carries it; 0 unless given
+    blocked : share of the variance that an opposing current stopped and that was left out
     """
 
     period: float
@@ -33,6 +34,7 @@ class LinearWaves(WaveField):
     gravity: float
     wave_number: Array
     carried: Array | float = 0.0
+    blocked: float = 0.0
 
     @staticmethod
     def free(
@@ -47,6 +49,40 @@ class LinearWaves(WaveField):
         k = wave_number(2 * np.pi * harmonic / period, depth, gravity)
         directions = np.broadcast_to(np.asarray(direction, dtype=float), harmonic.shape)
         return LinearWaves(period, harmonic, elevation, directions, depth, gravity, k)
+
+    @staticmethod
+    def in_current(
+        period: float,
+        harmonic: Array,
+        elevation: ComplexArray,
+        depth: float,
+        gravity: float,
+        direction: Array | float,
+        current: Array,
+    ) -> LinearWaves:
+        """Components (m,) as a fixed observer sees them, on water that flows.
+
+        current (3,) in m/s, the same at all depths. Their frequencies and amplitudes at the axis
+        are those given; their lengths, and the particles' motion, are those in the moving water.
+        Components that the current blocks are left out.
+        """
+        directions = np.broadcast_to(np.asarray(direction, dtype=float), harmonic.shape)
+        along = current[0] * np.cos(directions) + current[1] * np.sin(directions)
+        omega = 2 * np.pi * harmonic / period
+        k = wave_number_in_current(omega, depth, gravity, along)
+        moving = np.isfinite(k)
+        square = np.abs(elevation) ** 2
+        return LinearWaves(
+            period,
+            harmonic[moving],
+            elevation[moving],
+            directions[moving],
+            depth,
+            gravity,
+            k[moving],
+            along[moving],
+            float(np.sum(square[~moving]) / np.sum(square)),
+        )
 
     @property
     def intrinsic_omega(self) -> Array:

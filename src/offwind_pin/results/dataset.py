@@ -118,7 +118,12 @@ class HistoryWriter:
             "wave_elevation": (
                 ("time",),
                 block["wave_elevation"],
-                _about("surface elevation of the undisturbed wave at x = 0", "m", "Wave1Elev"),
+                _about(
+                    "surface elevation of the undisturbed wave at x = 0, about the mean water "
+                    "level",
+                    "m",
+                    "Wave1Elev",
+                ),
             ),
             "energy_stored": (
                 ("time", "holder"),

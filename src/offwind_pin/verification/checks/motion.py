@@ -17,7 +17,7 @@ from offwind_pin.analysis.integrators import GeneralizedAlpha, SciPyIVP
 from offwind_pin.analysis.transient import simulate
 from offwind_pin.campaign.case import load_case
 from offwind_pin.campaign.run import run_case
-from offwind_pin.dynamics.sea import IrregularWaves
+from offwind_pin.dynamics.irregular_sea import IrregularWaves
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.rotor_thrust import Control, RotorThrust
 from offwind_pin.loads.tower_top import LoadHistory

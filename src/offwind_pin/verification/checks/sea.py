@@ -8,7 +8,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.special import jvp, yvp
 
-from offwind_pin.dynamics.sea import IrregularWaves
+from offwind_pin.dynamics.irregular_sea import IrregularWaves
 from offwind_pin.loads.diffraction import inertia_factor
 from offwind_pin.loads.dispersion import wave_number
 from offwind_pin.loads.linear_waves import LinearWaves
