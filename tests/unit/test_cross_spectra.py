@@ -103,6 +103,14 @@ def test_scatter_is_that_of_independent_averages(overlap: float, window: str) ->
         assert found.averages < 0.96 * found.segments
 
 
+def test_averages_in_closed_form() -> None:
+    """Two Hann windows overlap by half with a correlation of 1/6; each has one neighbour."""
+    noise = np.random.default_rng(1).normal(size=(3000, 2))
+    two = cross_spectral_matrix(noise, 1.0, 2000.0)
+    assert two.segments == 2
+    assert two.averages == pytest.approx(2 / (1 + 1 / 6**2), rel=1e-6)
+
+
 GOOD = _mixed(400)
 
 

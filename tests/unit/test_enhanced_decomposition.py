@@ -23,13 +23,15 @@ FREQUENCY, RATIO = 0.6, 0.01
 SHAPE = np.array([0.3, 1.0, -0.5])
 
 
-def _true_correlation(lag: Array) -> Array:
+def _true_correlation(lag: Array, frequency: float = FREQUENCY, ratio: float = RATIO) -> Array:
     """Of the acceleration of a lightly damped oscillator but for its phase: a decaying cosine."""
-    omega = 2 * np.pi * FREQUENCY
-    return np.exp(-RATIO * omega * lag) * np.cos(omega * np.sqrt(1 - RATIO**2) * lag)
+    omega = 2 * np.pi * frequency
+    return np.exp(-ratio * omega * lag) * np.cos(omega * np.sqrt(1 - ratio**2) * lag)
 
 
-def _expected_spectra(segment_s: float) -> CrossSpectra:
+def _expected_spectra(
+    segment_s: float, frequency: float = FREQUENCY, ratio: float = RATIO
+) -> CrossSpectra:
     """What Welch's method gives in expectation: the transform of correlation times window's own.
 
     Summed over all lags of the window, so that what wraps round is there too.
@@ -38,7 +40,7 @@ def _expected_spectra(segment_s: float) -> CrossSpectra:
     window = signal.get_window("hann", length)
     own = np.correlate(window, window, "full")[length - 1 :] / np.sum(window**2)
     lag = np.arange(length)
-    tapered = own * _true_correlation(lag / RATE)
+    tapered = own * _true_correlation(lag / RATE, frequency, ratio)
     wrapped = tapered.copy()
     wrapped[1:] += tapered[:0:-1]
     density = np.maximum(np.fft.rfft(wrapped).real, 0.0) * 2 / RATE
@@ -70,6 +72,16 @@ def test_window_adds_no_damping(segment_s: float) -> None:
     assert found.frequency_hz == pytest.approx(FREQUENCY, rel=2e-4)
     assert found.damping_ratio == pytest.approx(RATIO, rel=0.03)
     assert found.reached == (segment_s > 100.0)
+
+
+@pytest.mark.parametrize(("frequency", "ratio"), [(8.3, 0.002), (0.6, 0.1)])
+def test_few_samples_and_strong_damping(frequency: float, ratio: float) -> None:
+    """At 2.4 samples a cycle too; of strong damping the undamped frequency comes back."""
+    spectra = _expected_spectra(200.0, frequency, ratio)
+    bell, peak = _bell(spectra)
+    found = mode_of_bell(bell, spectra, peak, (0.9, 0.2))
+    assert found.frequency_hz == pytest.approx(frequency, rel=1e-3)
+    assert found.damping_ratio == pytest.approx(ratio, rel=0.03)
 
 
 def test_window_would_add_damping() -> None:

@@ -30,7 +30,8 @@ def test_linear_decay(ratio: float, offset: float) -> None:
     assert found.frequency_hz == pytest.approx(0.3, rel=2e-5)
     assert found.damping_ratio == pytest.approx(ratio, rel=2e-3)
     assert found.damping_error < 2e-3 * ratio
-    assert_allclose(found.local_damping, ratio, rtol=2e-2)
+    middle = slice(2, max(4, len(found.local_damping) // 2))
+    assert_allclose(found.local_damping[middle], ratio, rtol=4e-3)
     expected = 0.2 * np.exp(-ratio * 2 * np.pi * 0.3 * found.time)
     # Half differences lie on the decay but for the factor that the curve of its logarithm makes.
     assert np.ptp(np.log(found.amplitude / expected)) < 2e-3
@@ -105,7 +106,7 @@ def test_error_tells_noise() -> None:
     ratio = np.array([f.damping_ratio for f in found])
     error = np.sqrt(np.mean([f.damping_error**2 for f in found]))
     assert np.mean(ratio) == pytest.approx(0.015, rel=0.01)
-    assert 0.4 < np.std(ratio) / error < 2.5
+    assert 0.8 < np.std(ratio) / error < 2.2
 
 
 TIME = np.arange(0, 60, 0.02)

@@ -82,7 +82,10 @@ def test_given_frequencies_and_their_order(record: Array, identified: Operationa
 def test_band_and_count(record: Array, identified: OperationalModes) -> None:
     """The most prominent peaks, or those of a band."""
     part = record[:100_000]
-    assert len(operational_modes(part, 1 / DT, 100.0, count=2).frequency_hz) == 2
+    # The second mode, least damped, rises most, the first least.
+    assert_allclose(
+        operational_modes(part, 1 / DT, 100.0, count=2).frequency_hz, [2.1, 4.4], rtol=5e-3
+    )
     banded = operational_modes(part, 1 / DT, 100.0, band=(1.5, 3.0))
     assert_allclose(banded.frequency_hz, [SYSTEM.frequency_hz[1]], rtol=5e-3)
 
