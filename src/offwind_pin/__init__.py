@@ -45,20 +45,28 @@ from offwind_pin.loads.tower_top import LoadHistory, read_load_history
 from offwind_pin.loads.wave_spectra import JonswapSpectrum, TableSpectrum, TmaSpectrum, WhiteNoise
 from offwind_pin.loads.wave_spreading import Spreading
 from offwind_pin.loads.wind_profile import ExtremeOperatingGust, LogLaw, PowerLaw, WindSeries
+from offwind_pin.signal.accelerations import Accelerations, read_accelerations
+from offwind_pin.signal.cross_spectra import CrossSpectra, cross_spectral_matrix
+from offwind_pin.signal.free_decay import FreeDecay, free_decay
+from offwind_pin.signal.modal_assurance import modal_assurance
+from offwind_pin.signal.operational_modes import OperationalModes, operational_modes
 from offwind_pin.solve.steps import AdaptiveStep, FixedStep
 from offwind_pin.turbines.definition import Turbine
 from offwind_pin.turbines.reader import load_turbine, shipped_turbines
 from offwind_pin.turbines.rotor_disc import rotor_disc
 
 __all__ = [
+    "Accelerations",
     "AdaptiveStep",
     "Condensation",
     "Crest",
+    "CrossSpectra",
     "CurrentSum",
     "CurrentTable",
     "DeflectionTarget",
     "ExtremeOperatingGust",
     "FixedStep",
+    "FreeDecay",
     "FrequencyTarget",
     "GeneralizedAlpha",
     "Identification",
@@ -71,6 +79,7 @@ __all__ = [
     "MeasuredWaves",
     "ModalResult",
     "OffwindError",
+    "OperationalModes",
     "Parameter",
     "PowerLaw",
     "PowerLawCurrent",
@@ -100,13 +109,18 @@ __all__ = [
     "aerodynamic_damping",
     "build",
     "condense",
+    "cross_spectral_matrix",
     "equivalent_damping",
     "export_urdf",
+    "free_decay",
     "identify_soil",
     "load_turbine",
+    "modal_assurance",
     "modes",
+    "operational_modes",
     "pile_only",
     "pushover",
+    "read_accelerations",
     "read_load_history",
     "rotor_disc",
     "shipped_turbines",

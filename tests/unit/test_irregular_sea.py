@@ -415,9 +415,9 @@ def test_seas_in_words() -> None:
         current=ow.UniformCurrent(0.5),
         crest=ow.Crest(5.0, 20.0),
     ).in_words
-    assert told.endswith(
-        "random amplitudes, spread by cos^2s(theta/2), s = 8, carried by the current, a crest of "
-        "5 m at 20 s"
+    assert told == (
+        "JONSWAP (gamma 3.3) waves, Hs 6 m, Tp 10 s, carried by the current, random amplitudes, "
+        "spread by cos^2s(theta/2), s = 8, a crest of 5 m at 20 s"
     )
     noise = ow.IrregularWaves(spectrum=ow.WhiteNoise(2.0, 0.1, 0.5), seed=1, repeat_period=600.0)
     assert noise.in_words == "white noise from 0.1 to 0.5 Hz, Hs 2 m"
