@@ -68,12 +68,13 @@ def draw_bodies(view: Any, system: System, motion: ModeMotion) -> None:
 
 
 def draw_site(view: Any, system: System) -> None:
-    """Mudline and still water as translucent discs, the axis at rest, a block if it is clamped."""
+    """Mudline and water level as translucent discs, the axis at rest, a block if it is clamped."""
     chain, mudline = system.chain, system.turbine.site.mudline
     height = chain.top - chain.base
     radius = 0.3 * height
     _set_mesh(view["site"]["mudline"], disc(radius, mudline), MUDLINE_COLOUR, opacity=0.42)
-    _set_mesh(view["site"]["still_water"], disc(radius, 0.0), WATER_COLOUR, opacity=0.26)
+    level = 0.0 if system.sea is None else system.sea.water_level
+    _set_mesh(view["site"]["still_water"], disc(radius, level), WATER_COLOUR, opacity=0.26)
     thin = 0.0014 * height
     axis = loft(np.array([circle(thin, chain.base), circle(thin, chain.top)]))
     _set_mesh(view["site"]["axis_at_rest"], axis, AXIS_COLOUR)
