@@ -42,7 +42,7 @@ _NAMES = 0.25
 """Of a panel's breadth, kept for the names of the levels."""
 _TOTAL = "#8b93a1"
 _HEIGHT_LABEL = "height z, m"
-_SHOWN_DEPTH = 1e-3
+_SHOWN_DEPTH = 5e-3
 """A spectrum is shown where it exceeds this share of its largest value."""
 
 
@@ -143,6 +143,8 @@ def kinematics(
         for axes, values in ((speed, profile.velocity), (push, profile.acceleration)):
             axes.plot(values @ along, profile.height, label=label, **style)
             axes.plot(values[-1] @ along, profile.height[-1], "o", ms=4.5, color=color, zorder=4)
+    left, right = speed.get_xlim()
+    speed.set_xlim(left - _NAMES * (right - left), right)
     mark_levels(speed, mudline, water=level, named="left")
     mark_levels(push, mudline, water=level)
     speed.set_xlabel("velocity along the waves, m/s")
