@@ -64,7 +64,7 @@ def row(case: OperationalCase, stretching: str, whole: float, repeats: int) -> d
     running = replace(case, system=replace(case.system, sea=long))
     waters = Waters.of(turbine, long)
     steps = case.duration / case.dt
-    time = 100.0 + case.dt * np.arange(BLOCK)
+    time = 100.0 + case.dt * np.arange(BLOCK, dtype=float)
     rise = np.ones(BLOCK)
     runs: dict[str, Callable[[int], object]] = {
         "setup": lambda count: [Waters.of(turbine, long) for _ in range(count)],

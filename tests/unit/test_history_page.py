@@ -238,6 +238,24 @@ class TestPage:
         assert motion["sea"] == same["sea"]
         assert motion["time"] == same["time"]
 
+    def test_surrogates_are_told(self, histories: dict[str, xr.Dataset]) -> None:
+        data = histories["regular"]
+        assert data.attrs["surrogates"] == "none"
+        assert "surrogate is at work" not in render_time_history(data, 5.0, 2.0)
+        told = data.assign_attrs(surrogates="soil made up | load made up")
+        text = render_time_history(told, 5.0, 2.0)
+        assert "Soil made up." in text
+        assert "Load made up." in text
+
+    def test_what_does_not_change_is_a_level_line(self, undamped: ow.Turbine) -> None:
+        """The rounding of a structure at rest is not blown up to fill the chart."""
+        text = render_time_history(history(undamped, None), 5.0, 10.0)
+        points = re.findall(r'<polyline points="([^"]*)"', text)
+        assert len(points) == 2
+        for curve in points:
+            heights = {float(pair.split(",")[1]) for pair in curve.split()}
+            assert heights == {23.0}
+
     def test_displacements_are_enlarged_to_be_seen(
         self, page: str, histories: dict[str, xr.Dataset]
     ) -> None:

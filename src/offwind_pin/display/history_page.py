@@ -44,6 +44,8 @@ _SEA_COLOURS = np.array([[20, 72, 128], [61, 143, 209], [214, 238, 250]]) / 255
 """Red, green and blue of the sea at its lowest, its mean and its highest point drawn."""
 _SHOWN_SHARE = 0.04
 """Of the height of the structure, which the largest displacement is not drawn beyond."""
+_LEVEL = 1e-3
+"""Half the range of a curve, over its largest value, below which it counts as constant."""
 _CHART = (276, 46)
 """Breadth and height of a curve in the card."""
 
@@ -76,6 +78,7 @@ def render_time_history(results: xr.Dataset, start: float = 0.0, duration: float
     scene = draw_scene(recorder.visualizer(), results, shown)
     wet = results.attrs.get("sea") != "dry"
     level = float(results.attrs.get("water_level_m", 0.0))
+    told = str(results.attrs.get("surrogates", "none"))
     return (
         environment()
         .get_template("history.html")
@@ -84,9 +87,10 @@ def render_time_history(results: xr.Dataset, start: float = 0.0, duration: float
             foundation=foundation_name(str(results.attrs["foundation"])),
             case=str(results.attrs.get("case", "time history")),
             waves=str(results.attrs.get("waves", "")) if wet else "",
-            water=f"sea, mean level {fixed(level, 2, sign=True)} m" if wet else "",
+            water=f"sea, mean level {fixed(level, 2, sign=level != 0)} m" if wet else "",
             sea_gradient=", ".join(mpl.colors.to_hex(colour) for colour in _SEA_COLOURS),
             left_out=shown.sea is None and bool(np.any(shown.elevation)),
+            surrogates=[text for text in told.split(" | ") if text not in ("", "none")],
             factors=_FACTORS,
             factor=_factor(shown),
             charts=_charts(shown),
@@ -205,12 +209,14 @@ def _charts(shown: Frames) -> list[dict[str, str]]:
     channels = [("tower top along x, m", shown.displacement[:, -1, 0])]
     if np.any(shown.elevation):
         channels.insert(0, ("surface at the axis, m", shown.elevation))
-    channels.append(("mudline fore-aft moment, MN m", shown.moment[:, 1] / 1e6))
+    channels.append(("fore-aft moment, MN m", shown.moment[:, 1] / 1e6))
     result = []
     for name, values in channels:
         low, high = float(values.min()), float(values.max())
+        # what hardly changes is drawn as a level line, not as its rounding
+        half = max((high - low) / 2, _LEVEL * max(abs(low), abs(high)), 1e-12)
         across = np.linspace(0, _CHART[0], len(values))
-        up = (_CHART[1] - 4) * (1 - (values - low) / max(high - low, 1e-12)) + 2
+        up = (_CHART[1] / 2 - 2) * (1 - (values - (low + high) / 2) / half) + 2
         points = " ".join(f"{x:.1f},{y:.1f}" for x, y in zip(across, up, strict=True))
         span = f"{low:.3g} to {high:.3g}".replace("-", MINUS)
         result.append({"name": name, "range": span, "points": points})
