@@ -38,7 +38,7 @@ _STYLES: tuple[tuple[str, str, Any], ...] = (
     ("zero crossing before it", VERMILLION, (0, (6, 2))),
     ("trough after it", GREEN, (0, (2, 1.5))),
 )
-_NAMES = 0.25
+_NAMES = 0.3
 """Of a panel's breadth, kept for the names of the levels."""
 _TOTAL = "#8b93a1"
 _HEIGHT_LABEL = "height z, m"
