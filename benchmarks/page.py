@@ -26,6 +26,7 @@ NAMES = {
     "step_cost": "Cost of a step",
     "real_time": "Real time",
     "soil_cost": "What the soil costs",
+    "wave_setup": "What long seas cost",
     "work_precision": "Work and precision",
     "peers": "Other codes",
     "pure_python": "The pure-Python core",

@@ -30,6 +30,7 @@ BENCHMARKS = {
     "step_cost": Benchmark("step_cost.py", "--repeats 1 --elements 20 40 80 --seconds 20"),
     "real_time": Benchmark("real_time.py", "--repeats 1"),
     "soil_cost": Benchmark("soil_cost.py", "--repeats 1 --seconds 20"),
+    "wave_setup": Benchmark("wave_setup.py", "--repeats 1 --seconds 60"),
     "work_precision": Benchmark(
         "work_precision.py",
         "--repeats 1 --elements 20 --seconds 20 --short 1 --fine 0.002 --tight 1e-6 --scipy 1e-3",

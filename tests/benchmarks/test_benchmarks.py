@@ -11,7 +11,17 @@ import pytest
 # The benchmarks are a folder of scripts; they find one another as they do when run.
 FOLDER = Path(__file__).parents[2] / "benchmarks"
 sys.path.insert(0, str(FOLDER))
-cases_per_hour, memory, page, real_time, run_all, soil_cost, step_cost, work_precision = (
+(
+    cases_per_hour,
+    memory,
+    page,
+    real_time,
+    run_all,
+    soil_cost,
+    step_cost,
+    wave_setup,
+    work_precision,
+) = (
     importlib.import_module(name)
     for name in (
         "cases_per_hour",
@@ -21,6 +31,7 @@ cases_per_hour, memory, page, real_time, run_all, soil_cost, step_cost, work_pre
         "run_all",
         "soil_cost",
         "step_cost",
+        "wave_setup",
         "work_precision",
     )
 )
@@ -42,6 +53,7 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> Path:
     run(step_cost, "step_cost", "--elements 8 12 --seconds 1 --steps 20")
     run(real_time, "real_time", "--seconds 2 --no-command")
     run(soil_cost, "soil_cost", "--seconds 2 --steps 20")
+    run(wave_setup, "wave_setup", "--seconds 2 --hours 0.1")
     tiny = "--elements 8 --seconds 1 --short 0.2 --steps 0.05 0.0125 --scipy 1e-2"
     run(work_precision, "work_precision", tiny + " --fine 0.005 --tight 1e-5")
     with pytest.MonkeyPatch.context() as patch:
@@ -128,6 +140,21 @@ def test_each_ground_is_what_it_says(results: Path):
     for name, row in rows.items():
         assert (row["tangents_call_s"] > 0) == bool(loads[name])
         assert row["largest_residual"] <= step_cost.CONVERGED
+
+
+def test_a_long_sea_is_set_up_at_the_strips(results: Path):
+    report = read(results, "wave_setup")
+    assert report["extrapolated"]
+    level, moving = report["rows"]
+    # harmonics of 360 s from 0.4 to 5 times the peak at 1 / 5.5 s
+    assert level["components"] == moving["components"] == 327 - 27 + 1
+    assert moving["strips"] > level["strips"] == 60
+    # two numbers at least for each sum, at more than twice as many points as harmonics
+    assert level["table_bytes"] > 8 * 2 * 2 * 2 * 327
+    shares = [row["setup_over_run"] for row in report["rows"]]
+    assert report["targets"][0]["measured"] == max(shares)
+    for row in report["rows"]:
+        assert 0 < row["rows_over_step"] < 1
 
 
 def soil_loads(ground: str) -> dict[str, str]:

@@ -2,11 +2,6 @@
 
 from __future__ import annotations
 
-import base64
-import io
-import json
-import os
-import shutil
 import signal
 import subprocess
 import sys
@@ -16,13 +11,11 @@ from collections.abc import Iterator
 from pathlib import Path
 from urllib.parse import urlsplit
 
-import matplotlib.image
 import numpy as np
 import pytest
+from helpers.pages import PATIENCE, Image, Visit, changed_share, drawn_share, picture, wait
 from numpy.testing import assert_allclose
-from numpy.typing import NDArray
 from selenium import webdriver
-from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.by import By
 from selenium.webdriver.support.ui import WebDriverWait
 
@@ -33,50 +26,7 @@ from offwind_pin.display.scene import CYCLE
 
 pytestmark = pytest.mark.browser
 
-PATIENCE = 120.0
-"""Seconds to wait for what takes a few: the machine may be small, busy and without graphics."""
-
 SCRIPT = Path(__file__).parents[2] / "viz" / "mode_shapes.py"
-FLAGS = (
-    "--headless=new",
-    "--no-sandbox",
-    "--disable-dev-shm-usage",
-    "--use-gl=angle",
-    "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    "--disable-quic",
-    "--no-first-run",
-    "--no-default-browser-check",
-    "--window-size=1200,900",
-)
-
-Image = NDArray[np.float64]
-
-
-@pytest.fixture(scope="module")
-def driver(tmp_path_factory: pytest.TempPathFactory) -> Iterator[webdriver.Chrome]:
-    """Headless Chromium with a fresh profile; its driver is never downloaded."""
-    names = ("chromium", "chromium-browser", "google-chrome")
-    browser = next((found for name in names if (found := shutil.which(name))), None)
-    service = shutil.which("chromedriver")
-    if browser is None or service is None:
-        message = "needs Chromium and chromedriver (Debian: apt install chromium chromium-driver)"
-        if os.environ.get("OFFWIND_REQUIRE_BROWSER") == "1":
-            pytest.fail(message)
-        pytest.skip(message)
-    options = webdriver.ChromeOptions()
-    options.binary_location = browser
-    for flag in (*FLAGS, f"--user-data-dir={tmp_path_factory.mktemp('profile')}"):
-        options.add_argument(flag)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-    chrome = webdriver.Chrome(options=options, service=Service(service))
-    chrome.set_page_load_timeout(PATIENCE)
-    chrome.set_script_timeout(PATIENCE)
-    yield chrome
-    chrome.quit()
 
 
 @pytest.fixture(scope="module")
@@ -94,72 +44,12 @@ def page(
     return path
 
 
-class Visit:
-    """What a browser saw while it opened one address.
-
-    errors : messages on its console that are errors; requested : URLs that it asked for
-    """
-
-    def __init__(self, driver: webdriver.Chrome, url: str, *, viewer: bool = True) -> None:
-        for log in ("browser", "performance"):
-            driver.get_log(log)
-        driver.get(url)
-        if viewer:
-            wait(driver, "return !!window.viewer && viewer.animator.actions.length > 0")
-        self.driver = driver
-        self.requested: list[str] = []
-        self.errors: list[str] = []
-        self.collect()
-
-    def collect(self) -> None:
-        """Take in what the logs have gained."""
-        for entry in self.driver.get_log("performance"):
-            message = json.loads(entry["message"])["message"]
-            if message["method"] in {"Network.requestWillBeSent", "Network.webSocketCreated"}:
-                params = message["params"]
-                self.requested.append(params.get("request", params)["url"])
-        for entry in self.driver.get_log("browser"):
-            if entry["level"] == "SEVERE":
-                self.errors.append(entry["message"])
-
-    def places(self) -> set[str]:
-        """Scheme of each request, with the host where there is one."""
-        parts = [urlsplit(url) for url in self.requested]
-        # The browser's own first tab may still be loading its parts; they are no request of the page.
-        return {f"{part.scheme}:{part.hostname or ''}" for part in parts if part.scheme != "chrome"}
-
-
-def wait(driver: webdriver.Chrome, condition: str) -> None:
-    """Until a script returns true."""
-    WebDriverWait(driver, PATIENCE, poll_frequency=0.1).until(
-        lambda chrome: chrome.execute_script(condition), f"never true: {condition}"
-    )
-
-
-def picture(driver: webdriver.Chrome) -> Image:
-    """(height, width, 3) pixels of the canvas as it is now, without what lies over it."""
-    url: str = driver.execute_script("return viewer.capture_image()")
-    image = matplotlib.image.imread(io.BytesIO(base64.b64decode(url.partition(",")[2])))
-    return np.asarray(image[..., :3], dtype=float)
-
-
 def frame(driver: webdriver.Chrome, share: float) -> Image:
     """The canvas at a share of the cycle, the animation stopped."""
     driver.execute_script(
         "viewer.animator.pause(); viewer.animator.seek(arguments[0])", share * CYCLE
     )
     return picture(driver)
-
-
-def drawn_share(image: Image) -> float:
-    """Share of the pixels that stand out from the sky, which is one colour along each row."""
-    sky = np.median(image, axis=1, keepdims=True)
-    return float(np.mean(np.abs(image - sky).max(axis=2) > 0.1))
-
-
-def changed_share(one: Image, other: Image) -> float:
-    """Share of the pixels that differ between two pictures."""
-    return float(np.mean(np.abs(one - other).max(axis=2) > 0.1))
 
 
 def test_file_opens_without_errors_or_requests(driver: webdriver.Chrome, page: Path) -> None:
@@ -179,7 +69,7 @@ def test_logs_would_show_errors_and_requests(driver: webdriver.Chrome, tmp_path:
         '<img src="http://127.0.0.1:9/picture.png"><script>console.error("wrong");'
         'fetch("http://127.0.0.1:9/data").catch(() => 0); new WebSocket("ws://127.0.0.1:9/");</script>'
     )
-    visit = Visit(driver, path.as_uri(), viewer=False)
+    visit = Visit(driver, path.as_uri(), ready="")
 
     def all_seen(_: webdriver.Chrome) -> bool:
         visit.collect()

@@ -154,7 +154,7 @@ class TestModeShapes:
 
     def test_marks_mudline_and_water(self, coarse_modes: ow.ModalResult) -> None:
         wet, dry = (
-            plots.mode_shapes(coarse_modes, -30.0, water=water).axes[0] for water in (True, False)
+            plots.mode_shapes(coarse_modes, -30.0, water=water).axes[0] for water in (0.0, None)
         )
         assert texts(wet) == ["mudline", "still water"]
         assert texts(dry) == ["mudline"]

@@ -169,7 +169,7 @@ class TestContents:
             ("wind", None, {"wind"}),
             ("rotor", (), {"rotor"}),
             ("published", (), {"published"}),
-            ("histories", None, {"histories", "envelope"}),
+            ("histories", None, {"histories", "envelope", "sea"}),
         ],
     )
     def test_leaving_out_one_part(

@@ -21,6 +21,7 @@ from offwind_pin.analysis.integrators import (
     StepFailed,
     first_record,
 )
+from offwind_pin.analysis.scenery import scenery
 from offwind_pin.analysis.static import static
 from offwind_pin.dynamics.compiled_chain import CompiledChain
 from offwind_pin.dynamics.equations import smooth_ramp
@@ -95,7 +96,8 @@ def simulate(
     -------
     Dataset with ``displacement``, ``acceleration``, ``section_force`` and ``section_moment`` over
     time and height, the mudline and tower-top channels, the applied load, the waves, the ledger of
-    energies, and the solver's own account; see ``attrs`` for versions, seeds and settings. With a
+    energies, the solver's own account, and what a picture needs
+    (:mod:`offwind_pin.analysis.scenery`); see ``attrs`` for versions, seeds and settings. With a
     ``directory`` it reads from the file there, channel by channel as they are asked for.
 
     Raises
@@ -142,6 +144,7 @@ def simulate(
         [load.name for load in chain.loads],
         chain.stores,
         attributes,
+        scenery(system),
     )
     if len(store) == 0:
         state, records = first_record(chain, sections, state)
@@ -308,6 +311,13 @@ def _told_of_waves(system: System) -> dict[str, Any]:
     return told
 
 
+def _water(system: System) -> dict[str, Any]:
+    """Of the sea what pictures say in words; nothing of a dry structure."""
+    if system.sea is None:
+        return {}
+    return {"water_level_m": system.sea.water_level, "waves": system.sea.in_words}
+
+
 def _provenance(
     system: System, loads: Sequence[PointLoad], ramp: float, interval: float, method: Integrator
 ) -> dict[str, Any]:
@@ -320,11 +330,13 @@ def _provenance(
         "sea": repr(system.sea) if system.sea else "dry",
         "wave_seed": -1 if system.sea is None else system.sea.wave_seed,
         **_told_of_waves(system),
+        **_water(system),
         "tower_top_load_origin": "; ".join(history.origin for history in origins) or "none",
         "surrogates": " | ".join(text for text in surrogates if text) or "none",
         "elements": system.chain.elements,
         "element": "timoshenko" if "px" in system.chain.node_joints else "euler_bernoulli",
         "ramp_s": ramp,
         "output_dt_s": interval,
+        "rotor_nacelle": system.turbine.rna.model_dump_json(),
         **method.describe(),
     }

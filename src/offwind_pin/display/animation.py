@@ -25,6 +25,7 @@ from offwind_pin.display.scene import (
     view_extent,
 )
 from offwind_pin.display.springs import node_step, soil_springs
+from offwind_pin.display.wording import water_level_name
 from offwind_pin.dynamics.system import System
 
 _FIELD_OF_VIEW_DEG = 24.0
@@ -58,6 +59,7 @@ def animate(system: System, result: ModalResult, label: str, *, links: bool = Fa
         foundation=system.foundation.name.replace("_", " "),
         surrogate=system.foundation.surrogate,
         wet=system.sea is not None,
+        water=water_level_name(0.0 if system.sea is None else system.sea.water_level),
         springs=_springs_in_words(system),
         label=label,
         name=mode_name(label),

@@ -58,16 +58,16 @@ _SHOWN_DEPTHS = (1 / 15, 2 / 15, 1 / 4, 1 / 2, 3 / 4)
 """p-y curves shown, by depth over embedded length."""
 
 _BAND = "#f6ead0"
-_HEIGHT_LABEL = "height above still water level, m"
+_HEIGHT_LABEL = "height z, m"
 
 
 @styled
-def mode_shapes(modes: ModalResult, mudline: float, *, water: bool = True) -> Figure:
+def mode_shapes(modes: ModalResult, mudline: float, *, water: float | None = 0.0) -> Figure:
     """Unit-peak shapes over height, one panel for each family of modes, up to three in each.
 
     The dot is where a shape peaks.
 
-    mudline : height in m
+    mudline, water : heights in m of the ground and of the mean surface, None for no water
     """
     families = [name for name in FAMILIES if any(_family(label) == name for label in modes.label)]
     figure = Figure(figsize=(max(5.0, FULL_WIDTH * len(families) / 3), 5.2))
@@ -104,10 +104,10 @@ def _family(label: str) -> str:
 
 
 @styled
-def statics(results: Mapping[str, StaticResult], *, water: bool = True) -> Figure:
+def statics(results: Mapping[str, StaticResult], *, water: float | None = 0.0) -> Figure:
     """Deflected shape and fore-aft section moment over height, foundations side by side.
 
-    results : by name of the foundation
+    results : by name of the foundation; water : height in m of the mean surface, None for no water
     """
     figure = Figure(figsize=(FULL_WIDTH, 4.9))
     shape, moment = figure.subplots(1, 2, sharey=True)
@@ -352,7 +352,8 @@ def section_load_envelope(histories: xr.Dataset) -> Figure:
         axes.set_xlabel(label)
         axes.grid(axis="x")
     panels[0].legend(loc="best")
-    water = histories.attrs.get("sea") != "dry"
+    dry = histories.attrs.get("sea") == "dry"
+    water = None if dry else float(histories.attrs.get("water_level_m", 0.0))
     mark_levels(panels[0], mudline, water=water)
     mark_levels(panels[1], mudline, water=water, named="left")
     panels[0].set_ylabel(_HEIGHT_LABEL)

@@ -20,6 +20,7 @@ from offwind_pin.analysis.modal import ModalResult
 from offwind_pin.analysis.static import StaticResult
 from offwind_pin.display import headline, plots, tables
 from offwind_pin.display.page import environment
+from offwind_pin.display.sea_section import SeaPicture, sea_pictures
 from offwind_pin.display.style import to_svg
 from offwind_pin.display.wording import DASH, is_mode
 from offwind_pin.dynamics.system import System
@@ -35,6 +36,7 @@ SECTIONS = {
     "statics": "Static equilibrium",
     "wind": "The synthetic wind",
     "rotor": "The running rotor",
+    "sea": "The sea",
     "histories": "Time histories",
     "psd": "Spectrum of the mudline moment",
     "envelope": "Section loads over height",
@@ -188,7 +190,8 @@ def write_report(path: Path, report: CaseReport) -> None:
 
 def render_report(report: CaseReport) -> str:
     """The HTML text of a report."""
-    shown = _tables(report)
+    sea = sea_pictures(report)
+    shown = _tables(report) | {"sea": sea}
     return (
         environment()
         .get_template("report.html.j2")
@@ -197,8 +200,8 @@ def render_report(report: CaseReport) -> str:
             headline=headline.headline(report),
             cards=headline.cards(report),
             shown=shown,
-            figures=_pictures(report),
-            titles=SECTIONS,
+            figures=_pictures(report, sea),
+            titles=SECTIONS | {picture.name: picture.title for picture in sea},
             contents={name: title for name, title in SECTIONS.items() if shown.get(name)},
         )
     )
@@ -230,15 +233,16 @@ def _tables(report: CaseReport) -> dict[str, Any]:
     }
 
 
-def _pictures(report: CaseReport) -> dict[str, Markup]:
+def _pictures(report: CaseReport, sea: list[SeaPicture]) -> dict[str, Markup]:
     """SVG by the section that holds it; matplotlib has escaped the names in it."""
-    return {name: Markup(to_svg(figure, name)) for name, figure in _figures(report).items()}  # noqa: S704
+    figures = _figures(report) | {picture.name: picture.figure for picture in sea}
+    return {name: Markup(to_svg(figure, name)) for name, figure in figures.items()}  # noqa: S704
 
 
 def _figures(report: CaseReport) -> dict[str, Figure]:
     """Figures by the section that holds them."""
     system, mudline = report.system, report.system.turbine.site.mudline
-    water = system.sea is not None
+    water = None if system.sea is None else system.sea.water_level
     figures = {"structure": plots.structure(system)}
     if report.modes is not None:
         figures["modes"] = plots.mode_shapes(report.modes, mudline, water=water)

@@ -23,7 +23,7 @@ CYCLE = 4.0
 
 MUDLINE_COLOUR, WATER_COLOUR, SPRING_COLOUR = 0xA07C4B, 0x3D8FD1, 0x46505A
 AXIS_COLOUR = 0x9AA5B1
-_RNA_COLOUR, _BLOCK_COLOUR, _STRIPE_COLOUR = 0xE9ECEF, 0x5A5F66, 0x20242A
+RNA_COLOUR, _BLOCK_COLOUR, _STRIPE_COLOUR = 0xE9ECEF, 0x5A5F66, 0x20242A
 _MOTION_PLANE = {"SS": np.array([0.0, 1.0, 0.0])}
 _ALONG_X = np.array([1.0, 0.0, 0.0])
 
@@ -36,7 +36,7 @@ def draw_mode(view: Any, system: System, motion: ModeMotion) -> None:
     view : a ``meshcat.Visualizer``
     """
     springs = foundation_springs(system, _MOTION_PLANE.get(motion.family, _ALONG_X))
-    _light(view)
+    light(view)
     draw_bodies(view, system, motion)
     draw_site(view, system)
     draw_springs(view, system, springs)
@@ -53,10 +53,10 @@ def draw_bodies(view: Any, system: System, motion: ModeMotion) -> None:
     chain = system.chain
     for k, (name, mesh) in enumerate(body_meshes(system.turbine, chain).items()):
         part = view["turbine"][name]
-        colour = _as_hex(mpl.colormaps[COLOUR_MAP](float(motion.share[k])))
-        _set_mesh(part["wall"], mesh, colour)
+        colour = as_hex(mpl.colormaps[COLOUR_MAP](float(motion.share[k])))
+        set_mesh(part["wall"], mesh, colour)
         if motion.family == "T":
-            _set_mesh(part["stripes"], _stripes(system, k), _STRIPE_COLOUR)
+            set_mesh(part["stripes"], _stripes(system, k), _STRIPE_COLOUR)
         part.set_transform(motion.poses[0, k])
     seat = np.eye(4)
     seat[2, 3] = chain.top - chain.origin[-1]
@@ -64,23 +64,24 @@ def draw_bodies(view: Any, system: System, motion: ModeMotion) -> None:
     rna.set_transform(seat)
     diameter = float(outer_diameter(system.turbine, np.array([chain.top]))[0])
     for name, mesh in rna_meshes(system.turbine.rna, diameter).items():
-        _set_mesh(rna[name], mesh, _RNA_COLOUR)
+        set_mesh(rna[name], mesh, RNA_COLOUR)
 
 
 def draw_site(view: Any, system: System) -> None:
-    """Mudline and still water as translucent discs, the axis at rest, a block if it is clamped."""
+    """Mudline and water level as translucent discs, the axis at rest, a block if it is clamped."""
     chain, mudline = system.chain, system.turbine.site.mudline
     height = chain.top - chain.base
     radius = 0.3 * height
-    _set_mesh(view["site"]["mudline"], disc(radius, mudline), MUDLINE_COLOUR, opacity=0.42)
-    _set_mesh(view["site"]["still_water"], disc(radius, 0.0), WATER_COLOUR, opacity=0.26)
+    set_mesh(view["site"]["mudline"], disc(radius, mudline), MUDLINE_COLOUR, opacity=0.42)
+    level = 0.0 if system.sea is None else system.sea.water_level
+    set_mesh(view["site"]["still_water"], disc(radius, level), WATER_COLOUR, opacity=0.26)
     thin = 0.0014 * height
     axis = loft(np.array([circle(thin, chain.base), circle(thin, chain.top)]))
-    _set_mesh(view["site"]["axis_at_rest"], axis, AXIS_COLOUR)
+    set_mesh(view["site"]["axis_at_rest"], axis, AXIS_COLOUR)
     if system.foundation.root is None:
         half, deep = 0.045 * height, 0.035 * height
         block = box([-half, -half, chain.base - deep], [half, half, chain.base])
-        _set_mesh(view["site"]["clamp"], block, _BLOCK_COLOUR)
+        set_mesh(view["site"]["clamp"], block, _BLOCK_COLOUR)
 
 
 def draw_springs(view: Any, system: System, springs: list[Spring]) -> None:
@@ -89,7 +90,7 @@ def draw_springs(view: Any, system: System, springs: list[Spring]) -> None:
     width = (0.011 if soil_springs(system) else 0.022) * height
     for spring in springs:
         symbol = zigzag(spring.rest_length, width, radius=0.0014 * height)
-        _set_mesh(view["springs"][spring.name], symbol, SPRING_COLOUR)
+        set_mesh(view["springs"][spring.name], symbol, SPRING_COLOUR)
 
 
 def view_extent(system: System) -> tuple[float, float, float]:
@@ -145,7 +146,7 @@ def _quaternion(rotation: Array) -> Array:
     return np.asarray(Rotation.from_matrix(rotation).as_quat())
 
 
-def _light(view: Any) -> None:
+def light(view: Any) -> None:
     """Light and sky for something 300 m tall; meshcat's own suit a robot of 2 m."""
     view["/Background"].set_property("top_color", [0.80, 0.88, 0.95])
     view["/Background"].set_property("bottom_color", [0.97, 0.98, 0.99])
@@ -166,19 +167,28 @@ def _light(view: Any) -> None:
             light.set_property("distance", 0)
 
 
-def _set_mesh(part: Any, mesh: Mesh, colour: int, opacity: float = 1.0) -> None:
+def set_mesh(
+    part: Any, mesh: Mesh, colour: int | Array, opacity: float = 1.0, *, gloss: int = 12
+) -> None:
+    """Show a mesh at a place in the viewer's tree.
+
+    colour : one such as 0x3D8FD1, or red, green and blue (n, 3) from 0 to 1 of its vertices
+    """
     # A translucent surface is seen from both sides, and what lies behind it must still be drawn, so
     # it leaves no mark in depth.
     solid = opacity == 1.0
     material = meshcat_geometry.MeshPhongMaterial(
-        color=colour,
+        color=colour if isinstance(colour, int) else 0xFFFFFF,
+        vertexColors=not isinstance(colour, int),
         opacity=opacity,
         side=0 if solid else 2,
         depthWrite=solid,
-        shininess=12,
+        shininess=gloss,
         specular=0x222222,
     )
-    part.set_object(meshcat_geometry.TriangularMeshGeometry(mesh.vertices, mesh.faces), material)
+    colours = None if isinstance(colour, int) else colour
+    geometry = meshcat_geometry.TriangularMeshGeometry(mesh.vertices, mesh.faces, color=colours)
+    part.set_object(geometry, material)
 
 
 def _stripes(system: System, k: int) -> Mesh:
@@ -197,6 +207,6 @@ def _stripes(system: System, k: int) -> Mesh:
     return Mesh.combine(strips)
 
 
-def _as_hex(rgba: tuple[float, ...]) -> int:
+def as_hex(rgba: tuple[float, ...]) -> int:
     red, green, blue = (round(255 * part) for part in rgba[:3])
     return (red << 16) + (green << 8) + blue

@@ -41,7 +41,7 @@ _GROUND_LINE = "#8a6d3b"
 def structure(system: System) -> Figure:
     """The structure in the plane of wind and waves, to scale.
 
-    Section outline, element boundaries (lines across), foundation, mudline, still water line,
+    Section outline, element boundaries (lines across), foundation, mudline, mean water level,
     rotor-nacelle assembly with its centre of mass, and the main heights. Distributed springs are
     shown again in a panel with the embedded pile enlarged, one for each node.
     """
@@ -59,7 +59,7 @@ def structure(system: System) -> Figure:
     _rotor_nacelle(whole, system)
     _foundation(whole, system, soil, reach=9.0)
     _label_heights(whole, system)
-    whole.set_ylabel("height above still water level, m")
+    whole.set_ylabel("height z, m")
     if enlarged is not None and soil is not None:
         _frame(enlarged, (-15, 15), (system.chain.base - 5, system.turbine.site.mudline + 6))
         _surroundings(enlarged, system)
@@ -83,13 +83,18 @@ def _surroundings(axes: Axes, system: System) -> None:
     axes.axhspan(low, mudline, color=SOIL, lw=0, zorder=0)
     axes.axhline(mudline, color=_GROUND_LINE, lw=1.2, zorder=1)
     x = np.linspace(left, right, 200)
-    surface = np.zeros_like(x)
+    level = _water_level(system)
+    surface = np.full_like(x, level)
     if system.waters is not None and system.waters.surface.waves is not None:
-        surface = 1.2 * np.cos(2 * np.pi * x / 20)
+        surface += 0.7 * np.cos(2 * np.pi * x / 20)
     if system.sea is not None:
         axes.fill_between(x, mudline, surface, color=WATER, lw=0, zorder=0)
         axes.plot(x, surface, color=BLUE, lw=1, zorder=1)
-    axes.axhline(0, color=BLUE, lw=0.8, ls=(0, (5, 3)), zorder=1)
+    axes.axhline(level, color=BLUE, lw=0.8, ls=(0, (5, 3)), zorder=1)
+
+
+def _water_level(system: System) -> float:
+    return 0.0 if system.sea is None else system.sea.water_level
 
 
 def _tower_and_pile(axes: Axes, system: System) -> None:
@@ -256,7 +261,9 @@ def _label_heights(axes: Axes, system: System) -> None:
         for member in turbine.members
         if member.bottom > chain.base and member.bottom != turbine.site.mudline
     ]
-    labels.append((0.0, "still water level" if system.sea else "water level (dry case)"))
+    level = _water_level(system)
+    named = "still water level" if level == 0 else "water level"
+    labels.append((level, named if system.sea else "water level (dry case)"))
     labels.append((turbine.site.mudline, "mudline"))
     if chain.base < turbine.site.mudline:
         end = base_name(system.foundation.name)

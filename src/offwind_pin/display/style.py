@@ -15,6 +15,8 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
 from numpy.typing import NDArray
 
+from offwind_pin.display.wording import water_level_name
+
 Array = NDArray[np.float64]
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -147,15 +149,22 @@ POWERS_OF_TEN = FuncFormatter(powers_of_ten)
 
 
 def mark_levels(
-    axes: Axes, mudline: float, *, water: bool, named: Literal["left", "right"] | None = None
+    axes: Axes,
+    mudline: float,
+    *,
+    water: float | None,
+    named: Literal["left", "right"] | None = None,
 ) -> None:
-    """Ground, mudline and still water line behind curves over height, named on one side or not."""
+    """Ground, mudline and water level behind curves over height, named on one side or not.
+
+    water : height in m of the mean surface, or None for a dry structure
+    """
     low = axes.get_ylim()[0]
     if low < mudline:
         axes.axhspan(low, mudline, color=SOIL, lw=0, zorder=0)
         axes.set_ylim(bottom=low)
     levels = [(mudline, "mudline", "#8a6d3b")]
-    levels += [(0.0, "still water", BLUE)] if water else []
+    levels += [] if water is None else [(water, water_level_name(water), BLUE)]
     for height, name, color in levels:
         axes.axhline(height, color=color, lw=0.8, ls=(0, (5, 3)), zorder=1)
         if named is not None:

@@ -35,7 +35,16 @@ if TYPE_CHECKING:
 _BAR = 0.10
 """Relative difference at which the bars in the table of published values end."""
 
-_DESCRIPTIVE = {"title", "surrogates", "frame", "status", "mudline_m"}
+_DESCRIPTIVE = {
+    "title",
+    "surrogates",
+    "frame",
+    "status",
+    "mudline_m",
+    "water_level_m",
+    "waves",
+    "rotor_nacelle",
+}
 _PROVENANCE_NAMES = {
     "turbine": "turbine",
     "definition_sha256": "hash of the definition (SHA-256)",

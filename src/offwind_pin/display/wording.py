@@ -33,6 +33,11 @@ def base_name(foundation: str) -> str:
     return "apparent fixity" if foundation == "apparent_fixity" else "pile toe"
 
 
+def water_level_name(level: float) -> str:
+    """The mean surface of the water by its height in m."""
+    return "still water" if level == 0 else f"water level {fixed(level, 2, sign=True)} m"
+
+
 def number(value: float, significant: int = 4) -> str:
     """A number with significant digits, a true minus sign, and spaces between thousands.
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from importlib import metadata
 from pathlib import Path
 from typing import Any
@@ -37,6 +37,7 @@ class HistoryWriter:
     loads : names of the loads
     stores : (L,) whether each stores energy rather than works
     attributes : of the dataset
+    constants : what does not change with time, by name: dimension, values, attributes
     """
 
     mudline: float
@@ -45,6 +46,7 @@ class HistoryWriter:
     loads: Sequence[str]
     stores: NDArray[np.bool_]
     attributes: dict[str, Any]
+    constants: Mapping[str, tuple[str, Array, dict[str, str]]] = field(default_factory=dict)
 
     def write(self, store: BlockStore, status: str, directory: Path | str | None) -> xr.Dataset:
         """Dataset of all blocks; with a directory it stands in ``results.nc`` there.
@@ -183,7 +185,7 @@ class HistoryWriter:
             **self.attributes,
             "status": status,
         }
-        return xr.Dataset(channels, coordinates, attributes)
+        return xr.Dataset({**channels, **self.constants}, coordinates, attributes)
 
 
 def versions() -> dict[str, str]:
