@@ -33,6 +33,7 @@ from offwind_pin.loads.current import (
     SurfaceCurrent,
     UniformCurrent,
 )
+from offwind_pin.loads.ground_motion import GroundMotion
 from offwind_pin.loads.rotor_thrust import RotorThrust
 from offwind_pin.loads.rotor_turbulence import RotorWind
 from offwind_pin.loads.synthetic_wind import SyntheticWind
@@ -55,6 +56,7 @@ __all__ = [
     "FixedStep",
     "FrequencyTarget",
     "GeneralizedAlpha",
+    "GroundMotion",
     "Identification",
     "InputError",
     "InterruptedSimulation",

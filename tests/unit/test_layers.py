@@ -113,6 +113,7 @@ def test_public_names() -> None:
         "FixedStep",
         "FrequencyTarget",
         "GeneralizedAlpha",
+        "GroundMotion",
         "Identification",
         "InputError",
         "InterruptedSimulation",
