@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import logging
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
@@ -26,6 +27,7 @@ from offwind_pin.dynamics.equations import smooth_ramp
 from offwind_pin.dynamics.sea import IrregularWaves
 from offwind_pin.dynamics.system import System
 from offwind_pin.errors import InputError, InterruptedSimulation, SolverError
+from offwind_pin.loads.ground_motion import GroundMotion, ground_motion_cautions
 from offwind_pin.loads.points import PointLoad
 from offwind_pin.loads.python_load import PythonLoad
 from offwind_pin.loads.tower_top import LoadHistory, TowerTopLoad, constant_load
@@ -34,6 +36,8 @@ from offwind_pin.results.dataset import HistoryWriter
 from offwind_pin.solve.steps import FixedStep
 from offwind_pin.structure.urdf import definition_hash
 from offwind_pin.turbines.base import Array
+
+_log = logging.getLogger(__name__)
 
 Progress = Callable[[float], None]
 
@@ -49,6 +53,7 @@ def simulate(
     loads: Sequence[PointLoad | LoadHistory | Array] = (),
     *,
     ramp: float = 0.0,
+    ground_motion: GroundMotion | None = None,
     output_dt: float | None = None,
     spectral_radius: float = 0.9,
     integrator: Integrator | None = None,
@@ -70,6 +75,8 @@ def simulate(
     loads : what acts: at the yaw bearing a constant load (6,) Fx, Fy, Fz, Mx, My, Mz in N and N m
         or a history, whose mean is taken over the time after the ramp; or point loads of one's own
     ramp : seconds over which the fluctuations rise
+    ground_motion : an earthquake, at its own times whatever the ramp; displacements and
+        accelerations are recorded as they are absolutely, not relative to the ground
     output_dt : interval of the output in s, a multiple of dt; by default every step
     spectral_radius : numerical damping at infinite frequency, 1 for none
     integrator : instead of ``dt`` and ``spectral_radius``, see
@@ -87,8 +94,8 @@ def simulate(
     Returns
     -------
     Dataset with ``displacement``, ``acceleration``, ``section_force`` and ``section_moment`` over
-    time and height, the mudline and tower-top channels, the applied load, the waves, the ledger of
-    energies, and the solver's own account; see ``attrs`` for versions, seeds and settings. With a
+    time and height, the mudline and tower-top channels, the applied load, the waves, the ground's
+    motion in an earthquake, the ledger of energies, and the solver's own account; see ``attrs`` for versions, seeds and settings. With a
     ``directory`` it reads from the file there, channel by channel as they are asked for.
 
     Raises
@@ -98,6 +105,10 @@ def simulate(
     InterruptedSimulation : the user stopped it; ``results`` holds the dataset so far
     """
     _check_settings(duration, dt, ramp, output_dt)
+    if not isinstance(ground_motion, GroundMotion | None):
+        raise InputError(
+            "ground_motion", type(ground_motion).__name__, "a GroundMotion or None", "Make one."
+        )
     interval = dt if output_dt is None else output_dt
     method = integrator or GeneralizedAlpha(FixedStep(dt), spectral_radius)
     outputs = round(duration / interval)
@@ -106,13 +117,16 @@ def simulate(
             "duration", duration, f"a multiple of {interval} s, the output's interval", "Adjust it."
         )
     acting = [_at_yaw_bearing(system, load, ramp, duration) for load in loads]
-    chain = CompiledChain(system, acting, ramp_time=ramp)
+    chain = CompiledChain(system, acting, ramp, ground_motion)
     parts = _segments(system, segments)
     sections = chain.sections(_recorded_heights(system, heights, parts), parts)
     start = static(system, loads=acting)
     chain.memory = start.memory
     state = method.begin(chain, start.q, interval)
-    attributes = _provenance(system, acting, ramp, interval, method) | (provenance or {})
+    attributes = _provenance(system, acting, ramp, interval, method)
+    if ground_motion is not None:
+        attributes |= _told_of(ground_motion, dt, duration)
+    attributes |= provenance or {}
     run = {
         **attributes,
         "duration_s": duration,
@@ -128,6 +142,7 @@ def simulate(
         [load.name for load in chain.loads],
         chain.stores,
         attributes,
+        _ground_levels(system, ground_motion),
     )
     if len(store) == 0:
         state, records = first_record(chain, sections, state)
@@ -215,11 +230,15 @@ def _block(chain: CompiledChain, state: MotionState, records: Records) -> Block:
     elevation = np.zeros(len(time))
     if waters is not None:
         elevation = rise * waters.surface.elevation(time)
+    shaken = {}
+    if chain.ground_motion is not None:
+        shaken["ground_motion"] = chain.ground_motion.motion(time)
     tops = [load.rows(time, rise) for load in chain.loads if isinstance(load, TowerTopLoad)]
     return {
         **records,
         "tower_top_load": np.sum([np.zeros((len(time), 6)), *tops], axis=0),
         "wave_elevation": elevation,
+        **shaken,
         **{f"state_{name}": np.asarray(value) for name, value in state._asdict().items()},
     }
 
@@ -269,6 +288,9 @@ def _fingerprint(chain: CompiledChain, sections: Sections, duration: float) -> s
     digest.update(json.dumps(chain.system.foundation.describe()).encode())
     arrays = [numbers, sections[0].height, sections[1].cut]
     arrays += [chain.arrays.stiffness, chain.arrays.damping]
+    if chain.ground_motion is not None:
+        motion = chain.ground_motion
+        arrays += [motion.time, motion.corrected, motion.levels]
     for load in chain.loads:
         arrays.append(load.height)
         if not isinstance(load, PythonLoad):  # whose inside is not to be seen
@@ -278,6 +300,25 @@ def _fingerprint(chain: CompiledChain, sections: Sections, duration: float) -> s
     for array in arrays:
         digest.update(np.ascontiguousarray(array).tobytes())
     return digest.hexdigest()
+
+
+def _ground_levels(system: System, motion: GroundMotion | None) -> Array:
+    """(D,) heights in m of the ground's recorded motion; none without an earthquake."""
+    if motion is None:
+        return np.zeros(0)
+    return np.array([system.turbine.site.mudline]) if motion.height is None else motion.height
+
+
+def _told_of(motion: GroundMotion, dt: float, duration: float) -> dict[str, str]:
+    """Attributes on an earthquake; what looks wrong with it goes to the log as well."""
+    cautions = ground_motion_cautions(motion, dt, duration)
+    for caution in cautions:
+        _log.warning("ground motion: %s", caution)
+    return {
+        "ground_motion_origin": motion.origin,
+        "ground_motion_baseline": motion.baseline,
+        "ground_motion_cautions": " | ".join(cautions) or "none",
+    }
 
 
 def _provenance(
