@@ -15,16 +15,20 @@ def shaking(
     peak: tuple[float, float, float] = (3.0, 2.0, 1.0),
     band: tuple[float, float] = (0.3, 6.0),
 ) -> ow.GroundMotion:
-    """Noise in a band of frequencies in Hz under an envelope, of given peaks in m/s2, at rest after."""
+    """Noise in a band of frequencies in Hz under an envelope, of given peaks in m/s2.
+
+    It is the derivative of an enveloped velocity: acceleration and velocity begin and end at zero.
+    """
     rng = np.random.default_rng(seed)
     time = step * np.arange(round(duration / step) + 1)
-    frequency = np.linspace(*band, 60)
-    phase = rng.uniform(0, 2 * np.pi, (3, len(frequency)))
-    waves = np.sin(2 * np.pi * frequency[:, None] * time + phase[..., None]).sum(axis=1)
-    envelope = np.sin(np.pi * time / time[-1]) ** 2
-    record = envelope * waves
+    rate = 2 * np.pi * np.linspace(*band, 60)[:, None]
+    angle = rate * time + rng.uniform(0, 2 * np.pi, (3, len(rate), 1))
+    turn = np.pi / time[-1]
+    envelope, its_rate = np.sin(turn * time) ** 2, turn * np.sin(2 * turn * time)
+    velocity, slope = (np.sin(angle) / rate).sum(axis=1), np.cos(angle).sum(axis=1)
+    record = envelope * slope + its_rate * velocity
     record *= np.array(peak)[:, None] / np.max(np.abs(record), axis=1)[:, None]
-    return ow.GroundMotion(time, record.T, baseline="parabolic")
+    return ow.GroundMotion(time, record.T)
 
 
 def by_depth(system: ow.System, levels: int = 3, seed: int = 4) -> ow.GroundMotion:
