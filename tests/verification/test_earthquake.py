@@ -105,7 +105,7 @@ def test_rigid_structure_goes_with_its_base() -> None:
     chain = system.chain
     mass = chain.rna.mass + sum(body.mass for body in chain.body)
     pull = -mass * data["ground_acceleration"].isel(level=0).to_numpy()
-    found = data["mudline_force"].to_numpy() + [0, 0, mass * GRAVITY]
+    found = data["mudline_force"].to_numpy() + np.array([0, 0, mass * GRAVITY])
     rung_down = data["time"].to_numpy() > 1.0
     assert np.abs(found - pull)[rung_down].max() < 1e-3 * np.abs(pull).max()
 
@@ -115,7 +115,9 @@ def test_turning_the_earthquake_turns_the_answer() -> None:
     system = ow.build(tube(gravity=GRAVITY, top_mass=1e5), "clamped", elements=6)
     motion = shaking(5.0, 0.02)
     angle = np.radians(50)
-    turn = np.array([[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0], [0, 0, 1]])
+    turn = np.array(
+        [[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0], [0, 0, 1]]
+    )
     method = ow.GeneralizedAlpha(ow.FixedStep(0.01), 0.9, 1e-11, 1e-12)
     plain, turned = (
         ow.simulate(system, 5.0, 0.01, ground_motion=given, integrator=method)
@@ -159,7 +161,9 @@ def in_soil(oc6: ow.Turbine, modulus: float, elements: dict[str, int] | None = N
     assert given is not None
     soil = given.model_copy(
         update={
-            "curve": LinearModulus(kind="linear", modulus=DepthLine(at_mudline=modulus, gradient=0)),
+            "curve": LinearModulus(
+                kind="linear", modulus=DepthLine(at_mudline=modulus, gradient=0)
+            ),
             "toe_vertical_stiffness": 100 * modulus,
             "toe_torsional_stiffness": 100 * modulus,
             "dashpot": None,
@@ -174,7 +178,12 @@ def in_soil(oc6: ow.Turbine, modulus: float, elements: dict[str, int] | None = N
 
 def on_base(system: ow.System, motion: ow.GroundMotion, duration: float = 5.0) -> xr.Dataset:
     return ow.simulate(
-        system, duration, 0.01, ground_motion=motion, heights=[-20.0, 20.0], segments=[(-20.0, 80.0)]
+        system,
+        duration,
+        0.01,
+        ground_motion=motion,
+        heights=[-20.0, 20.0],
+        segments=[(-20.0, 80.0)],
     )
 
 

@@ -95,8 +95,9 @@ def simulate(
     -------
     Dataset with ``displacement``, ``acceleration``, ``section_force`` and ``section_moment`` over
     time and height, the mudline and tower-top channels, the applied load, the waves, the ground's
-    motion in an earthquake, the ledger of energies, and the solver's own account; see ``attrs`` for versions, seeds and settings. With a
-    ``directory`` it reads from the file there, channel by channel as they are asked for.
+    motion in an earthquake, the ledger of energies, and the solver's own account; see ``attrs`` for
+    versions, seeds and settings. With a ``directory`` it reads from the file there, channel by
+    channel as they are asked for.
 
     Raises
     ------

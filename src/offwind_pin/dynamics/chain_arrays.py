@@ -21,7 +21,6 @@ from offwind_pin.loads.points import (
 from offwind_pin.structure.chain import NDArrayInt
 from offwind_pin.turbines.base import Array
 
-
 GROUND_NUMBERS = 9
 """Numbers of a level of the ground in a row: displacement, velocity and acceleration."""
 BASE = -1

@@ -156,9 +156,7 @@ class CompiledChain:
 
     def equations(self) -> Equations:
         """The same equations of motion by Pinocchio."""
-        return Equations(
-            self.system, self._given, self.ramp_time, self.memory, self.ground_motion
-        )
+        return Equations(self.system, self._given, self.ramp_time, self.memory, self.ground_motion)
 
     def worst_joint(self, residual: Array) -> tuple[str, float]:
         """Name and size of the largest entry of a residual."""

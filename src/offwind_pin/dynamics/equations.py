@@ -43,8 +43,8 @@ _REACH = 20.0
 class Evaluation:
     """One evaluation of the chain and its loads.
 
-    motion : of the chain, relative to a base that may move; points, forces : motion of the loaded points and forces there, the added
-    mass's first
+    motion : of the chain, relative to a base that may move; points, forces : motion of the loaded
+    points, and forces there, the added mass's first
     """
 
     motion: ChainMotion
@@ -178,13 +178,13 @@ class Equations:
             return points
         ground = self._ground(time)
         moved = ground[BASE] - ground[:-1]
-        assert points.acceleration is not None
+        acceleration = points.acceleration
         return replace(
             points,
             position=points.position + ground[BASE, 0],
             displacement=points.displacement + moved[:, 0],
             velocity=points.velocity + moved[:, 1],
-            acceleration=points.acceleration + ground[BASE, 2],
+            acceleration=None if acceleration is None else acceleration + ground[BASE, 2],
         )
 
     def worst_joint(self, residual: Array) -> tuple[str, float]:
@@ -235,9 +235,7 @@ class Equations:
         return by_q, by_v, by_a
 
 
-def grounding(
-    system: System, loads: Sequence[PointLoad], motion: GroundMotion | None
-) -> Grounding:
+def grounding(system: System, loads: Sequence[PointLoad], motion: GroundMotion | None) -> Grounding:
     """Where base and soil meet a moving ground, of all the loads of a system.
 
     Raises

@@ -41,7 +41,7 @@ class Grounding:
         )
 
     def at(self, motion: Array) -> Array:
-        """(P + 1, 3, 3) displacement, velocity, acceleration out of those of the levels (D, 3, 3)."""
+        """(P + 1, 3, 3) displacement, velocity and acceleration out of the levels' (D, 3, 3)."""
         if self.levels == 0:
             return np.zeros((len(self.level), 3, 3))
         above = np.minimum(self.level + 1, self.levels - 1)
@@ -51,7 +51,7 @@ class Grounding:
 
 
 def between_levels(motion: GroundMotion, height: Array) -> tuple[NDArrayInt, Array]:
-    """Level at or below each height (n,) in m, and the share of the next; one level is everywhere."""
+    """(n,) level at or below each height in m, and the share of the next; one is everywhere."""
     if len(motion.levels) == 1:
         return np.zeros(len(height), dtype=np.intp), np.zeros(len(height))
     levels = motion.levels

@@ -21,7 +21,7 @@ JOINT_DAMPERS, ROOT = 0, 1
 """First columns of the energies dissipated; one for each load follows."""
 
 GROUND = 0
-"""First column of the energies worked, by the moving ground; one for each load follows a void one."""
+"""First column of the energies worked, by a moving ground; a void one and the loads' follow."""
 
 
 class Cuts(NamedTuple):

@@ -1,8 +1,8 @@
 """The moving ground, as the chain and its soil meet it.
 
-The chain's base moves with the ground: root joints, restraint and joint springs see motion relative
-to it. Soil along the pile sees its points relative to the ground at their own heights. Water and wind
-see absolute motion.
+The chain's base moves with the ground: root joints and their restraint see motion relative to it.
+Soil along the pile sees its points relative to the ground at their own heights. Water and wind see
+absolute motion.
 """
 
 from __future__ import annotations

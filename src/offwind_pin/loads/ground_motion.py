@@ -73,7 +73,7 @@ class GroundMotion:
 
     def _check_shapes(self) -> None:
         n = len(self.time) if self.time.ndim == 1 else 0
-        expected = (n, 3)
+        expected: tuple[int, ...] = (n, 3)
         if self.height is not None:
             expected = (len(self.height) if self.height.ndim == 1 else 0, n, 3)
         if n < 2 or 0 in expected or self.acceleration.shape != expected:
@@ -81,7 +81,7 @@ class GroundMotion:
                 "ground motion",
                 f"time {self.time.shape}, acceleration {self.acceleration.shape}"
                 + ("" if self.height is None else f", height {self.height.shape}"),
-                "time (n,) of two samples or more, acceleration (n, 3), or (D, n, 3) at height (D,)",
+                "time (n,) of two samples or more, acceleration (n, 3); at height (D,) (D, n, 3)",
                 "Give three components, zero where the ground does not move.",
             )
         if self.height is not None and np.any(np.diff(self.height) <= 0):
@@ -191,8 +191,8 @@ def ground_motion_cautions(motion: GroundMotion, dt: float, duration: float) -> 
     told = []
     if motion.time[0] < 0:
         told.append(
-            f"the record begins at {motion.time[0]:g} s: the simulation starts in the middle of it, "
-            "the structure at rest relative to a ground that moves already"
+            f"the record begins at {motion.time[0]:g} s: the simulation starts in the middle of "
+            "it, the structure at rest relative to a ground that moves already"
         )
     if motion.time[-1] > duration:
         told.append(f"the record ends at {motion.time[-1]:g} s, after the simulation")
@@ -210,8 +210,8 @@ def ground_motion_cautions(motion: GroundMotion, dt: float, duration: float) -> 
     peak = np.max(np.abs(motion.motion(motion.time)[:, :, 1]))
     if np.max(np.abs(velocity)) > _DRIFTING * peak:
         told.append(
-            f"the ground still moves by {np.max(np.abs(velocity)):.3g} m/s when the record ends, and "
-            "drifts on; baseline: parabolic brings it to rest"
+            f"the ground still moves by {np.max(np.abs(velocity)):.3g} m/s when the record ends, "
+            "and drifts on; baseline: parabolic brings it to rest"
         )
     return told
 

@@ -76,7 +76,11 @@ class HistoryWriter:
         shaken = len(self.levels) > 0
         sources = [shaken, False, *~self.stores]
         channels = {
-            "displacement": (along, displacement, _about("displacement of the axis, absolute", "m")),
+            "displacement": (
+                along,
+                displacement,
+                _about("displacement of the axis, absolute", "m"),
+            ),
             "acceleration": (
                 along,
                 block["acceleration"],

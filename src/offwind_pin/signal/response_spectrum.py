@@ -98,9 +98,7 @@ def response_spectrum(
         state, low, rise = _exact_step(frequency, damping_ratio, step)
         after = int(np.ceil(value / step))
         for j, column in enumerate(columns):
-            largest[:, i, j] = _largest(
-                column, parts, after, state, low, rise, frequency**2, decay
-            )
+            largest[:, i, j] = _largest(column, parts, after, state, low, rise, frequency**2, decay)
     return ResponseSpectrum(
         periods, damping_ratio, largest[0].reshape(shape), largest[1].reshape(shape)
     )
