@@ -34,7 +34,7 @@ from offwind_pin.turbines.base import Array, Definition, NonNegative, Number
 
 _log = logging.getLogger(__name__)
 
-PERIODS = np.geomspace(0.05, 10.0, 120)
+PERIODS = np.geomspace(0.05, 10.0, 200)
 """s, of the response spectrum that is drawn."""
 DAMPING_RATIO = 0.05
 """Of the response spectrum; the ratio that codes print theirs for."""

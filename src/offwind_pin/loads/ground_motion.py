@@ -213,6 +213,13 @@ def ground_motion_cautions(motion: GroundMotion, dt: float, duration: float) -> 
             f"the ground still moves by {np.max(np.abs(velocity)):.3g} m/s when the record ends, "
             "and drifts on; baseline: parabolic brings it to rest"
         )
+    given = motion.acceleration if motion.height is not None else motion.acceleration[None]
+    share = np.max(np.abs(motion.corrected - given)) / max(np.max(np.abs(given)), 1e-300)
+    if share > _CROOKED:
+        told.append(
+            f"the baseline's parabola takes off {share:.0%} of the largest acceleration; the "
+            "record is crooked, or has too few samples to tell its baseline"
+        )
     return told
 
 
@@ -220,6 +227,8 @@ _COARSE = 0.025
 """s; an eighth of the period of 5 Hz, below which most of an earthquake's energy lies."""
 _DRIFTING = 0.02
 """Share of the largest velocity that may be left at the end."""
+_CROOKED = 0.1
+"""Share of the largest acceleration that a correction may take off."""
 
 
 def _numbers(name: str, value: Array) -> Array:
