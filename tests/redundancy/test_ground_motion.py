@@ -76,6 +76,39 @@ def test_each_part_of_the_ground_s_motion_is_seen(
     assert blockwise_difference(compiled(chain, state), expected, kinds) > 1e-6
 
 
+def test_soil_stands_in_the_ground_at_its_depth(linear_soil: ow.System) -> None:
+    """Of unevenly spaced levels, by NumPy's interpolation at every node and at the base."""
+    motion = by_depth(linear_soil, levels=5)
+    assert motion.height is not None
+    motion = replace(motion, height=motion.height + np.array([0, 3.0, -4.0, 5.0, 0]))
+    chain, state = CompiledChain(linear_soil, ground_motion=motion), random_state(linear_soil)
+    compiled(chain, state)
+    s, (soil,) = chain.arrays, linear_soil.foundation.soil
+    place = next(i for i, load in enumerate(chain.loads) if load is soil)
+    at = slice(*s.first_point[place : place + 2])
+    given = motion.motion(np.array([TIME]))[0]
+    assert motion.height is not None
+
+    def ground(height: Array, part: int) -> Array:
+        columns = (np.interp(height, motion.height, given[:, part, j]) for j in range(3))
+        return np.column_stack(list(columns))
+
+    moved = s.motion[at, :3] - [0, 0, 1] * s.point_height[at, None]
+    assert s.motion[at, 3:6] == pytest.approx(moved - ground(soil.height, 0), abs=1e-12)
+    axis, body = s.rotation[s.point_body[at], :, 2], s.point_body[at]
+    arm = s.point_offset[at, None] * axis
+    speed = s.velocity[body] + np.cross(s.spin[body], arm)
+    assert s.motion[at, 6:9] == pytest.approx(speed - ground(soil.height, 1), abs=1e-12)
+    others = np.setdiff1d(np.arange(len(s.point_body)), np.arange(at.start, at.stop))
+    moved = s.motion[others, :3] - [0, 0, 1] * s.point_height[others, None]
+    assert s.motion[others, 3:6] == pytest.approx(moved, abs=1e-12)
+    base = np.array([linear_soil.chain.base])
+    compiled(chain, replace(state, q=0 * state.q, v=0 * state.v, a=0 * state.a))
+    assert s.origin[0] == pytest.approx(ground(base, 0)[0] + [0, 0, base[0]], abs=1e-12)
+    assert s.acceleration[0] == pytest.approx(ground(base, 2)[0], abs=1e-12)
+    assert np.ptp(ground(soil.height, 0)[:, 0]) > 0.01
+
+
 def test_tangents_in_an_earthquake(in_waves: ow.System, state: State) -> None:
     """dr/dq, dr/dv and dr/da about a moving state on moving ground."""
     bare = without_joint_springs(in_waves)

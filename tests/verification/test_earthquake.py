@@ -352,6 +352,9 @@ def test_killed_and_resumed(coarse: ow.System, tmp_path: Path) -> None:
         run(tmp_path / "stopped", late, stop)
     with pytest.raises(ow.InputError, match="inputs"):
         run(tmp_path / "stopped", late.scaled(1.0 + 1e-9))
+    assert late.height is not None
+    with pytest.raises(ow.InputError, match="inputs"):
+        run(tmp_path / "stopped", replace(late, height=late.height + np.array([0, 0.01, 0])))
     resumed = run(tmp_path / "stopped", late)
     assert resumed.identical(whole)
     assert np.abs(whole["ground_displacement"]).max() > 0.01
