@@ -120,7 +120,7 @@ def part_runs(motion: Motion, sections: Any, every: int) -> dict[str, Callable[[
     instants = motion.rows[:, 0].copy()
     chain.factorise(row, q, v, a, by_v, by_a)
     return {
-        "motion": lambda n: _moves(arrays, q, v, a, n),
+        "motion": lambda n: _moves(arrays, row, q, v, a, n),
         "loads": lambda n: _loads(arrays, row, n),
         "balance": lambda n: _balances(arrays, row, q, v, a, n),
         "solution": lambda n: _solutions(arrays, residual, n),
@@ -179,10 +179,10 @@ def numbers(chain: CompiledChain, instants: Array, count: int) -> None:
 
 
 @kernel
-def _moves(s: ChainArrays, q: Array, v: Array, a: Array, count: int) -> None:
+def _moves(s: ChainArrays, row: Array, q: Array, v: Array, a: Array, count: int) -> None:
     for _ in range(count):
-        move(s, q, v, a)
-        move_points(s)
+        move(s, row, q, v, a)
+        move_points(s, row)
 
 
 @kernel

@@ -35,6 +35,7 @@ from offwind_pin.loads.current import (
     SurfaceCurrent,
     UniformCurrent,
 )
+from offwind_pin.loads.ground_motion import GroundMotion
 from offwind_pin.loads.rotor_thrust import RotorThrust
 from offwind_pin.loads.rotor_turbulence import RotorWind
 from offwind_pin.loads.surface_record import SurfaceRecord
@@ -69,6 +70,7 @@ __all__ = [
     "FreeDecay",
     "FrequencyTarget",
     "GeneralizedAlpha",
+    "GroundMotion",
     "Identification",
     "InputError",
     "InterruptedSimulation",

@@ -206,11 +206,36 @@ def test_tower_top_loads_of_the_docs(written: Path) -> None:
 
 def test_sea_in_python(capsys: Any) -> None:
     """The lines about the sea print what they say."""
-    block = _blocks("docs/case_file.md", "python")[0]
+    block = next(b for b in _blocks("docs/case_file.md", "python") if "TmaSpectrum" in b)
     exec(block, {})  # our own text
     words, count = capsys.readouterr().out.strip().splitlines()
     assert words.startswith("TMA waves")
     assert f"# {count}" in block
+
+
+def test_earthquakes_of_the_docs(written: Path, capsys: Any) -> None:
+    """Both that the page shows, of one motion and by depth, run; its lines of Python print what they say."""
+    base = yaml.safe_load((written / "my_case.yaml").read_text())
+    (written / "my_record.txt").write_text(_blocks("docs/case_file.md", "text")[1])
+    shown = [yaml.safe_load(block) for block in _blocks("docs/case_file.md", "yaml")[2:]]
+    earthquakes = [block for block in shown if "earthquake" in block]
+    assert len(earthquakes) == 2
+    del base["tower_top_load"]
+    short = {"duration_s": 30.0, "ramp_s": 5.0, "dt_s": 0.05, "output_dt_s": 0.1}
+    base["analysis"] |= short | {"psd_segment_s": 10.0}
+    base |= {"turbine": "oc3_phase2", "sea": {"kind": "still_water"}, "elements": 12}
+    for number, earthquake in enumerate(earthquakes):
+        out = written / f"earthquake{number}"
+        summary = run_case(Case.model_validate(base | earthquake), written, out)
+        scale = 1.5 if number == 0 else 1.0
+        peak = summary["earthquake"]["peak_ground_acceleration_m_per_s2"]
+        assert np.hypot(peak["x"], peak["y"]) == pytest.approx(0.2 * 9.80665 * scale, rel=1e-9)
+        with xr.open_dataset(out / "results.nc") as data:
+            assert len(data["level"]) == 1 + number
+            assert float(np.abs(data["mudline_moment"][120:]).max()) > 1e7
+    block = next(b for b in _blocks("docs/case_file.md", "python") if "GroundMotion" in b)
+    exec(block, {})  # our own text
+    assert f"# {capsys.readouterr().out.strip().splitlines()[-1]} m" in block
 
 
 def test_rotor_in_python(capsys: Any) -> None:

@@ -117,6 +117,7 @@ def test_public_names() -> None:
         "FreeDecay",
         "FrequencyTarget",
         "GeneralizedAlpha",
+        "GroundMotion",
         "Identification",
         "InputError",
         "InterruptedSimulation",

@@ -10,10 +10,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from helpers.earthquakes import shaking
 
 import offwind_pin as ow
 from offwind_pin.analysis.modal import mode_name
 from offwind_pin.display import plots
+from offwind_pin.display.earthquake_plots import EarthquakeDescription
 from offwind_pin.display.report import (
     SECTIONS,
     Band,
@@ -36,6 +38,7 @@ from offwind_pin.display.wording import (
     significant_digits,
 )
 from offwind_pin.loads.synthetic_wind import operate_rotor
+from offwind_pin.signal.response_spectrum import response_spectrum
 from offwind_pin.signal.spectra import band_sum, peaks, power_spectral_density
 
 HOSTILE = '"><script>alert(1)</script><img src=x onerror=alert(2)>'
@@ -96,6 +99,7 @@ def full(coarse: ow.System) -> CaseReport:
         ),
         wind=WindDescription(wind, rotor),
         rotor=(("mean thrust", "1.1 MN"),),
+        earthquake=described_earthquake(),
         psd=psd,
     )
 
@@ -115,6 +119,13 @@ def html(full: CaseReport) -> str:
 @pytest.fixture(scope="module")
 def page(html: str) -> Page:
     return Page(html)
+
+
+def described_earthquake() -> EarthquakeDescription:
+    motion = shaking()
+    record = motion.corrected[0]
+    found = response_spectrum(record, motion.step, np.geomspace(0.05, 10, 30))
+    return EarthquakeDescription(motion.time, record, found, {"FA1": 4.2}, (("record", "made"),))
 
 
 def spectrum(histories: xr.Dataset, modes: ow.ModalResult) -> MomentSpectrum:
@@ -168,6 +179,7 @@ class TestContents:
             ("psd", None, {"psd"}),
             ("wind", None, {"wind"}),
             ("rotor", (), {"rotor"}),
+            ("earthquake", None, {"earthquake"}),
             ("published", (), {"published"}),
             ("histories", None, {"histories", "envelope", "sea"}),
         ],

@@ -28,6 +28,7 @@ from offwind_pin.dynamics.equations import smooth_ramp
 from offwind_pin.dynamics.system import System
 from offwind_pin.dynamics.wave_checks import check_waves, wave_facts
 from offwind_pin.errors import InputError, InterruptedSimulation, SolverError
+from offwind_pin.loads.ground_motion import GroundMotion, ground_motion_cautions
 from offwind_pin.loads.points import PointLoad
 from offwind_pin.loads.python_load import PythonLoad
 from offwind_pin.loads.tower_top import LoadHistory, TowerTopLoad, constant_load
@@ -37,10 +38,10 @@ from offwind_pin.solve.steps import FixedStep
 from offwind_pin.structure.urdf import definition_hash
 from offwind_pin.turbines.base import Array
 
+_log = logging.getLogger(__name__)
+
 Progress = Callable[[float], None]
 Start = Literal["static", "undeformed"]
-
-_log = logging.getLogger(__name__)
 
 _BLOCK_SECONDS = 20.0
 _BLOCK_STEPS = 2000
@@ -55,6 +56,7 @@ def simulate(
     *,
     ramp: float = 0.0,
     start: Start = "static",
+    ground_motion: GroundMotion | None = None,
     output_dt: float | None = None,
     spectral_radius: float = 0.9,
     integrator: Integrator | None = None,
@@ -78,6 +80,8 @@ def simulate(
     ramp : seconds over which the fluctuations rise
     start : ``"static"``, or ``"undeformed"`` for a structure that gravity and mean loads seize at
         time 0
+    ground_motion : an earthquake, at its own times whatever the ramp; displacements and
+        accelerations are recorded as they are absolutely, not relative to the ground
     output_dt : interval of the output in s, a multiple of dt; by default every step
     spectral_radius : numerical damping at infinite frequency, 1 for none
     integrator : instead of ``dt`` and ``spectral_radius``, see
@@ -95,10 +99,10 @@ def simulate(
     Returns
     -------
     Dataset with ``displacement``, ``acceleration``, ``section_force`` and ``section_moment`` over
-    time and height, the mudline and tower-top channels, the applied load, the waves, the ledger of
-    energies, the solver's own account, and what a picture needs
-    (:mod:`offwind_pin.analysis.scenery`); see ``attrs`` for versions, seeds and settings. With a
-    ``directory`` it reads from the file there, channel by channel as they are asked for.
+    time and height, the mudline and tower-top channels, the applied load, the waves, the ground's
+    motion in an earthquake, the ledger of energies, the solver's own account, and what a picture
+    needs (:mod:`offwind_pin.analysis.scenery`); see ``attrs`` for versions, seeds and settings.
+    With a ``directory`` it reads from the file there, channel by channel as they are asked for.
 
     Raises
     ------
@@ -110,6 +114,10 @@ def simulate(
     _check_settings(duration, dt, ramp, output_dt)
     if start not in get_args(Start):
         raise InputError("start", start, ", ".join(get_args(Start)), "Choose one.")
+    if not isinstance(ground_motion, GroundMotion | None):
+        raise InputError(
+            "ground_motion", type(ground_motion).__name__, "a GroundMotion or None", "Make one."
+        )
     interval = dt if output_dt is None else output_dt
     method = integrator or GeneralizedAlpha(FixedStep(dt), spectral_radius)
     outputs = round(duration / interval)
@@ -118,7 +126,7 @@ def simulate(
             "duration", duration, f"a multiple of {interval} s, the output's interval", "Adjust it."
         )
     acting = [_at_yaw_bearing(system, load, ramp, duration) for load in loads]
-    chain = CompiledChain(system, acting, ramp_time=ramp)
+    chain = CompiledChain(system, acting, ramp, ground_motion)
     parts = _segments(system, segments)
     sections = chain.sections(_recorded_heights(system, heights, parts), parts)
     q = np.zeros(system.nv)
@@ -127,8 +135,10 @@ def simulate(
         q, chain.memory = resting.q, resting.memory
     state = method.begin(chain, q, interval)
     check_waves(system, duration, ramp, method.describe().get("dt_s"))
-    attributes = _provenance(system, acting, ramp, interval, method)
-    attributes |= {"start": start} | (provenance or {})
+    attributes = _provenance(system, acting, ramp, interval, method) | {"start": start}
+    if ground_motion is not None:
+        attributes |= _told_of(ground_motion, dt, duration)
+    attributes |= provenance or {}
     run = {
         **attributes,
         "duration_s": duration,
@@ -145,6 +155,7 @@ def simulate(
         chain.stores,
         attributes,
         scenery(system),
+        _ground_levels(system, ground_motion),
     )
     if len(store) == 0:
         state, records = first_record(chain, sections, state)
@@ -232,11 +243,15 @@ def _block(chain: CompiledChain, state: MotionState, records: Records) -> Block:
     elevation = np.zeros(len(time))
     if waters is not None:
         elevation = rise * waters.surface.elevation(time)
+    shaken = {}
+    if chain.ground_motion is not None:
+        shaken["ground_motion"] = chain.ground_motion.motion(time)
     tops = [load.rows(time, rise) for load in chain.loads if isinstance(load, TowerTopLoad)]
     return {
         **records,
         "tower_top_load": np.sum([np.zeros((len(time), 6)), *tops], axis=0),
         "wave_elevation": elevation,
+        **shaken,
         **{f"state_{name}": np.asarray(value) for name, value in state._asdict().items()},
     }
 
@@ -286,6 +301,9 @@ def _fingerprint(chain: CompiledChain, sections: Sections, duration: float) -> s
     digest.update(json.dumps(chain.system.foundation.describe()).encode())
     arrays = [numbers, sections[0].height, sections[1].cut]
     arrays += [chain.arrays.stiffness, chain.arrays.damping]
+    if chain.ground_motion is not None:
+        motion = chain.ground_motion
+        arrays += [motion.time, motion.corrected, motion.levels]
     for load in chain.loads:
         arrays.append(load.height)
         if not isinstance(load, PythonLoad):  # whose inside is not to be seen
@@ -316,6 +334,25 @@ def _water(system: System) -> dict[str, Any]:
     if system.sea is None:
         return {}
     return {"water_level_m": system.sea.water_level, "waves": system.sea.in_words}
+
+
+def _ground_levels(system: System, motion: GroundMotion | None) -> Array:
+    """(D,) heights in m of the ground's recorded motion; none without an earthquake."""
+    if motion is None:
+        return np.zeros(0)
+    return np.array([system.turbine.site.mudline]) if motion.height is None else motion.height
+
+
+def _told_of(motion: GroundMotion, dt: float, duration: float) -> dict[str, str]:
+    """Attributes on an earthquake; what looks wrong with it goes to the log as well."""
+    cautions = ground_motion_cautions(motion, dt, duration)
+    for caution in cautions:
+        _log.warning("ground motion: %s", caution)
+    return {
+        "ground_motion_origin": motion.origin,
+        "ground_motion_baseline": motion.baseline,
+        "ground_motion_cautions": " | ".join(cautions) or "none",
+    }
 
 
 def _provenance(

@@ -9,6 +9,7 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, Field, model_validator
 
 from offwind_pin.analysis.foundations import FOUNDATIONS
+from offwind_pin.campaign.earthquakes import Earthquake
 from offwind_pin.campaign.sea_states import SeaChoice
 from offwind_pin.campaign.tower_top_loads import TowerTopLoadChoice
 from offwind_pin.campaign.tower_winds import TowerWindChoice
@@ -102,6 +103,7 @@ class Case(Definition):
     sea: SeaChoice
     tower_top_load: TowerTopLoadChoice | None = None
     tower_wind: TowerWindChoice | None = None
+    earthquake: Earthquake | None = None
     analysis: Annotated[
         StaticAnalysis | ModalAnalysis | TransientAnalysis, Field(discriminator="kind")
     ]
@@ -117,6 +119,7 @@ class Case(Definition):
         loads = {
             "tower_top_load": self.tower_top_load is not None,
             "tower_wind": self.tower_wind is not None,
+            "earthquake": self.earthquake is not None,
             self.sea.kind: self.sea.has_waves,
         }
         given = [name for name, is_there in loads.items() if is_there]

@@ -20,6 +20,7 @@ from offwind_pin.campaign.case import (
     StaticAnalysis,
     TransientAnalysis,
 )
+from offwind_pin.campaign.earthquakes import Shaking
 from offwind_pin.campaign.output import check_writable
 from offwind_pin.campaign.settling import settle
 from offwind_pin.campaign.summaries import (
@@ -31,6 +32,7 @@ from offwind_pin.campaign.summaries import (
 )
 from offwind_pin.campaign.tower_top import generator, rotor_of, tower_top
 from offwind_pin.campaign.tower_top_loads import SyntheticTowerTopLoad
+from offwind_pin.display.earthquake_plots import EarthquakeDescription
 from offwind_pin.display.report import (
     CaseReport,
     MomentSpectrum,
@@ -65,6 +67,7 @@ class CaseResult:
     statics: dict[str, StaticResult] = field(default_factory=dict)
     spectrum: MomentSpectrum | None = None
     rotor: tuple[tuple[str, str], ...] = ()
+    earthquake: EarthquakeDescription | None = None
 
 
 def run_case(
@@ -176,6 +179,10 @@ def _solve_transient(
 ) -> CaseResult:
     system = _build(case, turbine, case.foundation, folder, analysis.duration)
     top = tower_top(case, turbine, analysis, folder)
+    shaking = None
+    if case.earthquake is not None:
+        gravity = turbine.site.gravity
+        shaking = Shaking.of(case.earthquake, folder, gravity, analysis.dt, analysis.duration)
     wind = [] if case.tower_wind is None else [tower_drag(system, case.tower_wind.wind())]
     data = simulate(
         system,
@@ -183,6 +190,7 @@ def _solve_transient(
         analysis.dt,
         [*top.loads, *wind],
         ramp=analysis.ramp,
+        ground_motion=None if shaking is None else shaking.motion,
         output_dt=analysis.output_dt,
         directory=out,
         provenance={"case": case.name, "seed": case.seed, **top.provenance},
@@ -207,11 +215,14 @@ def _solve_transient(
         "mean_iterations": float(data["solver_iterations"][1:].mean()),
         "largest_residual": float(data["solver_residual"].max()),
         **top.summary(system, result, state),
+        **({} if shaking is None else {"earthquake": shaking.summary(result)}),
     }
     waves = wave_facts(system)
     if waves:
         summary["waves"] = waves
-    return CaseResult(summary, data, system, result, {case.foundation: state}, spectrum, top.facts)
+    described = None if shaking is None else shaking.description(result)
+    statics = {case.foundation: state}
+    return CaseResult(summary, data, system, result, statics, spectrum, top.facts, described)
 
 
 def _frequencies(result: ModalResult) -> dict[str, float]:
@@ -301,6 +312,7 @@ def _write(case: Case, turbine: Turbine, out: Path, result: CaseResult) -> None:
         wind=_wind_report(case, turbine),
         psd=result.spectrum,
         rotor=result.rotor,
+        earthquake=result.earthquake,
     )
     # The summary is written last, so that where it stands the other files belong to it.
     (out / "summary.json").unlink(missing_ok=True)

@@ -404,7 +404,22 @@ def p_y_curves(soil: SoilSprings, mudline: float, *, reached: Array | None = Non
 
 
 def soil_displacement_reached(histories: xr.Dataset, soil: SoilSprings) -> Array:
-    """(n,) largest lateral displacement of each spring's node after the ramp, in m."""
-    lateral = analysed(histories).displacement.sel(direction=["x", "y"])
-    size = np.asarray(np.hypot(*np.moveaxis(lateral.values, -1, 0)).max(axis=0))
+    """(n,) largest lateral displacement of each spring's node after the ramp, in m.
+
+    In an earthquake it is that relative to the ground at its depth.
+    """
+    part = analysed(histories)
+    lateral = part.displacement.sel(direction=["x", "y"]).values
+    if "ground_displacement" in part:
+        lateral = lateral - _ground_at(part, part.height.values)[..., :2]
+    size = np.asarray(np.hypot(*np.moveaxis(lateral, -1, 0)).max(axis=0))
     return np.interp(soil.height, histories.height.values, size)
+
+
+def _ground_at(histories: xr.Dataset, height: Array) -> Array:
+    """(t, m, 3) displacement of the ground at heights (m,) in m, the ends holding beyond."""
+    ground, level = histories.ground_displacement.values, histories.level.values
+    place = np.interp(height, level, np.arange(len(level)))
+    below = np.floor(place).astype(int)
+    above, share = np.minimum(below + 1, len(level) - 1), (place - below)[:, None]
+    return np.asarray((1 - share) * ground[:, below] + share * ground[:, above])

@@ -19,6 +19,7 @@ from matplotlib.figure import Figure
 from offwind_pin.analysis.modal import ModalResult
 from offwind_pin.analysis.static import StaticResult
 from offwind_pin.display import headline, plots, tables
+from offwind_pin.display.earthquake_plots import EarthquakeDescription, response_spectrum_plot
 from offwind_pin.display.page import environment
 from offwind_pin.display.sea_section import SeaPicture, sea_pictures
 from offwind_pin.display.style import to_svg
@@ -37,6 +38,7 @@ SECTIONS = {
     "wind": "The synthetic wind",
     "rotor": "The running rotor",
     "sea": "The sea",
+    "earthquake": "The earthquake",
     "histories": "Time histories",
     "psd": "Spectrum of the mudline moment",
     "envelope": "Section loads over height",
@@ -159,6 +161,7 @@ class CaseReport:
     wind : how the tower-top load was made, where it is synthetic
     psd : of the fore-aft moment at the mudline
     rotor : name and value of what is to be told of a rotor that runs, or nothing
+    earthquake : that moves the ground, or None
     """
 
     name: str
@@ -173,6 +176,7 @@ class CaseReport:
     wind: WindDescription | None = None
     psd: MomentSpectrum | None = None
     rotor: tuple[tuple[str, str], ...] = ()
+    earthquake: EarthquakeDescription | None = None
 
     @property
     def analysed(self) -> xr.Dataset | None:
@@ -219,6 +223,7 @@ def _tables(report: CaseReport) -> dict[str, Any]:
         "wind": tables.wind_facts(report.wind),
         "rotor": list(report.rotor),
         "rotor_damping": report.summary.get("aerodynamic_damping", []),
+        "earthquake": report.earthquake,
         "histories": report.histories is not None,
         "statistics": tables.statistics(report),
         "psd": report.psd,
@@ -248,6 +253,8 @@ def _figures(report: CaseReport) -> dict[str, Figure]:
         figures["modes"] = plots.mode_shapes(report.modes, mudline, water=water)
     if report.statics:
         figures["statics"] = plots.statics(tables.ordered_statics(report), water=water)
+    if report.earthquake is not None:
+        figures["earthquake"] = response_spectrum_plot(report.earthquake)
     if report.histories is not None:
         figures["histories"] = plots.time_histories(report.histories)
     if report.psd is not None:

@@ -25,8 +25,8 @@ def balance(s: ChainArrays, row: Array, q: Array, v: Array, a: Array) -> Array:
 
     row : numbers of the loads that depend on time alone
     """
-    move(s, q, v, a)
-    move_points(s)
+    move(s, row, q, v, a)
+    move_points(s, row)
     evaluate_loads(s, row)
     collect_wrenches(s)
     dof = 0

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from offwind_pin.compiled import compiled_list
+from offwind_pin.dynamics.grounding import Grounding
 from offwind_pin.dynamics.restraints import KernelRestraint
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.points import (
@@ -19,6 +20,11 @@ from offwind_pin.loads.points import (
 )
 from offwind_pin.structure.chain import NDArrayInt
 from offwind_pin.turbines.base import Array
+
+GROUND_NUMBERS = 9
+"""Numbers of a level of the ground in a row: displacement, velocity and acceleration."""
+BASE = -1
+"""Place of the chain's base after the loaded points, where they meet the ground."""
 
 
 class ChainArrays(NamedTuple):
@@ -50,6 +56,9 @@ class ChainArrays(NamedTuple):
     point_height: Array  # (P,) undeformed height in m
     loads: int  # L
     first_point: NDArrayInt  # (L + 1,) where each load's points begin
+    ground_level: NDArrayInt  # (P + 1,) level of the ground at or below each point and, last, the
+    # base; -1 where none is met
+    ground_share: Array  # (P + 1,) of the next level
     first_number: NDArrayInt  # (L + 1,) where each load's numbers begin in a row
     forces: Any  # lists of the loads' exchangeable kernels, and of their constants; not empty
     tangents: Any
@@ -94,8 +103,13 @@ def _no_force(motion: Array, constants: Array, row: Array, memory: Array, force:
     return 0.0
 
 
-def chain_arrays(system: System, loads: Sequence[KernelLoad], root: KernelRestraint) -> ChainArrays:
-    """Arrays of a system under loads, its root held by a restraint if it has joints."""
+def chain_arrays(
+    system: System, loads: Sequence[KernelLoad], root: KernelRestraint, ground: Grounding
+) -> ChainArrays:
+    """Arrays of a system under loads, its root held by a restraint if it has joints.
+
+    ground : how points and base meet it
+    """
     chain = system.chain
     n, nv = chain.elements, system.nv
     height = np.concatenate([np.zeros(0), *(load.height for load in loads)])
@@ -129,7 +143,10 @@ def chain_arrays(system: System, loads: Sequence[KernelLoad], root: KernelRestra
         point_height=height,
         loads=len(loads),
         first_point=np.cumsum([0, *(len(load.height) for load in loads)], dtype=np.intp),
-        first_number=1 + np.cumsum([0, *widths], dtype=np.intp),  # the time comes first
+        ground_level=ground.level,
+        ground_share=ground.share,
+        # the time comes first, then the ground
+        first_number=1 + GROUND_NUMBERS * ground.levels + np.cumsum([0, *widths], dtype=np.intp),
         forces=compiled_list([load.force_kernel for load in loads] or [_no_force]),
         tangents=compiled_list([load.tangent_kernel for load in loads] or [no_tangents]),
         energies=compiled_list([load.energy_kernel for load in loads] or [nothing_stored]),

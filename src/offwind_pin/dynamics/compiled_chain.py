@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from offwind_pin.compiled import announce, exchanging_kernels
 from offwind_pin.dynamics.balance import balance, commit
 from offwind_pin.dynamics.chain_arrays import ChainArrays, chain_arrays
-from offwind_pin.dynamics.equations import Equations, all_loads, smooth_ramp
+from offwind_pin.dynamics.equations import Equations, all_loads, grounding, smooth_ramp
 from offwind_pin.dynamics.iteration import correction, factorise, unstable_directions
 from offwind_pin.dynamics.recorder_arrays import (
     Cuts,
@@ -31,6 +31,7 @@ from offwind_pin.dynamics.recorder_arrays import (
 from offwind_pin.dynamics.recording import take_note
 from offwind_pin.dynamics.restraints import as_kernel_restraint
 from offwind_pin.dynamics.system import System
+from offwind_pin.loads.ground_motion import GroundMotion
 from offwind_pin.loads.points import PointLoad, nothing_stored
 from offwind_pin.loads.python_load import PythonLoad, as_kernel_load
 from offwind_pin.solve import generalized_alpha
@@ -51,23 +52,36 @@ class CompiledChain:
     ----------
     arrays : the system as arrays, with the state last evaluated
     loads : soil, water and what was given, in compiled form
+    ground_motion : of the ground below, or None
     """
 
     def __init__(
-        self, system: System, loads: Sequence[PointLoad] = (), ramp_time: float = 0.0
+        self,
+        system: System,
+        loads: Sequence[PointLoad] = (),
+        ramp_time: float = 0.0,
+        ground_motion: GroundMotion | None = None,
     ) -> None:
         announce()
         self.system = system
         self.ramp_time = ramp_time
+        self.ground_motion = ground_motion
         self._given = loads
-        self.loads = [as_kernel_load(load) for load in all_loads(system, loads)]
+        everything = all_loads(system, loads)
+        self.loads = [as_kernel_load(load) for load in everything]
         self._root = as_kernel_restraint(system.foundation.root)
-        self.arrays = chain_arrays(system, self.loads, self._root)
+        ground = grounding(system, everything, ground_motion)
+        self.arrays = chain_arrays(system, self.loads, self._root, ground)
 
     def rows(self, time: Array) -> Array:
-        """(t, 1 + w) time, and the numbers of the loads that depend on it alone, at times (t,)."""
+        """(t, 1 + w) time, the ground's motion, and the loads' numbers that depend on time alone.
+
+        time : (t,) in s
+        """
         rise = smooth_ramp(time, self.ramp_time)
         parts = [np.asarray(time)[:, None], *(load.rows(time, rise) for load in self.loads)]
+        if self.ground_motion is not None:
+            parts.insert(1, self.ground_motion.motion(time).reshape(len(time), -1))
         return np.ascontiguousarray(np.hstack(parts))
 
     def residual(self, row: Array, q: Array, v: Array, a: Array) -> Array:
@@ -142,7 +156,7 @@ class CompiledChain:
 
     def equations(self) -> Equations:
         """The same equations of motion by Pinocchio."""
-        return Equations(self.system, self._given, self.ramp_time, self.memory)
+        return Equations(self.system, self._given, self.ramp_time, self.memory, self.ground_motion)
 
     def worst_joint(self, residual: Array) -> tuple[str, float]:
         """Name and size of the largest entry of a residual."""

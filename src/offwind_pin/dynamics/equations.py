@@ -11,15 +11,18 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pinocchio as pin
 
+from offwind_pin.dynamics.chain_arrays import BASE
+from offwind_pin.dynamics.grounding import Grounding, check_reach, is_soil
 from offwind_pin.dynamics.kinematics import AxisPoints, ChainMotion
 from offwind_pin.dynamics.restraints import KernelRestraint, as_kernel_restraint
 from offwind_pin.dynamics.system import System
 from offwind_pin.errors import InputError
+from offwind_pin.loads.ground_motion import GroundMotion
 from offwind_pin.loads.points import (
     MOMENT_BY_POSITION,
     MOMENT_BY_SPIN,
@@ -40,8 +43,8 @@ _REACH = 20.0
 class Evaluation:
     """One evaluation of the chain and its loads.
 
-    motion : of the chain; points, forces : motion of the loaded points and forces there, the added
-    mass's first
+    motion : of the chain, relative to a base that may move; points, forces : motion of the loaded
+    points, and forces there, the added mass's first
     """
 
     motion: ChainMotion
@@ -66,12 +69,17 @@ class Equations:
         loads: Sequence[PointLoad],
         ramp_time: float,
         memory: Array | None = None,
+        ground_motion: GroundMotion | None = None,
     ) -> None:
         self.system = system
         self.chain = system.chain
         self.ramp_time = ramp_time
         self.loads = all_loads(system, loads)
         self._model, self._data = system.pin_model, system.scratch.data
+        self._ground_motion = ground_motion
+        self._grounding = grounding(system, self.loads, ground_motion)
+        if ground_motion is not None:
+            self._model = pin.Model(system.pin_model)  # its gravity will change
         heights = [np.zeros(0), *(load.height for load in self.loads)]
         self.points = AxisPoints.on(system.chain, np.concatenate(heights))
         edges = np.cumsum([len(height) for height in heights])
@@ -85,6 +93,7 @@ class Equations:
     def residual(self, time: float, q: Array, v: Array, a: Array) -> Array:
         """(nv,) generalised forces out of balance, in N and N m."""
         state = self.evaluate(time, q, v, a)
+        self._lean(time)
         balance = pin.rnea(self._model, self._data, q, v, a)
         balance = balance + self.system.joint_stiffness * q + self.system.joint_damping * v
         balance -= state.motion.generalised_force(
@@ -105,7 +114,8 @@ class Equations:
         for load, part, past in zip(self.loads, self._parts, self._memory[:-1], strict=True):
             if isinstance(load, KernelLoad) and not load.inertial:
                 continue
-            tangents = load.tangents(now, points[part], rise, **as_argument(load, past))
+            seen = points if time is None else self._seen(now, points)
+            tangents = load.tangents(now, seen[part], rise, **as_argument(load, past))
             moved = motion.derivatives(self.points[part], points[part]).position
             change = np.einsum("nij,njk->nik", tangents.inertia, moved)
             total -= np.tensordot(moved, change, axes=([0, 1], [0, 1]))
@@ -117,6 +127,7 @@ class Equations:
         """Stiffness dr/dq and damping dr/dv, both (nv, nv), exact; a is zero unless given."""
         rate = np.zeros_like(q) if a is None else a
         by_q, by_v, _ = self._load_tangents(time, q, v, rate)
+        self._lean(time)
         pin.computeRNEADerivatives(self._model, self._data, q, v, rate)
         stiffness = by_q + self._data.dtau_dq + np.diag(self.system.joint_stiffness)
         damping = by_v + self._data.dtau_dv + np.diag(self.system.joint_damping)
@@ -132,15 +143,49 @@ class Equations:
         return np.asarray(-np.linalg.solve(self.mass(q, time), lack))
 
     def evaluate(self, time: float, q: Array, v: Array, a: Array) -> Evaluation:
-        """Motion of the chain and of the loaded points, and every point force."""
+        """Motion of the chain and of the loaded points, and every point force.
+
+        In an earthquake motions are those relative to the base; loads are shown what they see.
+        """
         motion = self.chain_motion(q, v, a)
         points = motion.points(self.points)
+        seen = self._seen(time, points)
         force, moment = np.zeros((2, len(self.points.height), 3))
         rise = float(smooth_ramp(np.array(time), self.ramp_time))
         for load, part, past in zip(self.loads, self._parts, self._memory[:-1], strict=True):
-            result = load.forces(time, points[part], rise, **as_argument(load, past))
+            result = load.forces(time, seen[part], rise, **as_argument(load, past))
             force[part], moment[part] = result.force, result.moment
         return Evaluation(motion, points, PointForces(force, moment))
+
+    def _ground(self, time: float) -> Array:
+        """(P + 1, 3, 3) ground's displacement, velocity, acceleration at points and base."""
+        if self._ground_motion is None:
+            return self._grounding.at(np.zeros((0, 3, 3)))
+        return self._grounding.at(self._ground_motion.motion(np.array([time]))[0])
+
+    def _lean(self, time: float) -> None:
+        """Let gravity pull as it does seen from a base that accelerates."""
+        if self._ground_motion is not None:
+            own = self.system.pin_model.gravity.linear
+            self._model.gravity.linear = own - self._ground(time)[BASE, 2]
+
+    def _seen(self, time: float, points: PointMotion) -> PointMotion:
+        """Motion as loads see it: absolute, but for the soil relative to the ground there.
+
+        points : relative to the base
+        """
+        if self._ground_motion is None:
+            return points
+        ground = self._ground(time)
+        moved = ground[BASE] - ground[:-1]
+        acceleration = points.acceleration
+        return replace(
+            points,
+            position=points.position + ground[BASE, 0],
+            displacement=points.displacement + moved[:, 0],
+            velocity=points.velocity + moved[:, 1],
+            acceleration=None if acceleration is None else acceleration + ground[BASE, 2],
+        )
 
     def worst_joint(self, residual: Array) -> tuple[str, float]:
         """Name and size of the largest entry of a residual."""
@@ -160,10 +205,11 @@ class Equations:
     ) -> tuple[Array, Array, Array]:
         """(nv, nv) derivatives of minus the loads' generalised force by q, v and a."""
         state = self.evaluate(time, q, v, a)
+        seen = self._seen(time, state.points)
         rise = float(smooth_ramp(np.array(time), self.ramp_time))
         by_q, by_v, by_a = np.zeros((3, len(q), len(q)))
         for load, part, past in zip(self.loads, self._parts, self._memory[:-1], strict=True):
-            tangents = load.tangents(time, state.points[part], rise, **as_argument(load, past))
+            tangents = load.tangents(time, seen[part], rise, **as_argument(load, past))
             how = state.motion.derivatives(self.points[part], state.points[part])
             change = np.einsum("nij,njk->nik", tangents.stiffness, how.position)
             change += np.einsum("nij,njk->nik", tangents.damping, how.velocity_by_q)
@@ -187,6 +233,23 @@ class Equations:
             self.points, state.points.position, state.forces.force, state.forces.moment
         )
         return by_q, by_v, by_a
+
+
+def grounding(system: System, loads: Sequence[PointLoad], motion: GroundMotion | None) -> Grounding:
+    """Where base and soil meet a moving ground, of all the loads of a system.
+
+    Raises
+    ------
+    InputError : the motion is not given at every depth that it is needed at
+    """
+    height = np.concatenate([np.zeros(0), *(load.height for load in loads)])
+    if motion is None:
+        return Grounding.nowhere(len(height))
+    chain, soil = system.chain, system.foundation.soil
+    check_reach(motion, chain.base, system.turbine.site.mudline)
+    meets = [np.full(len(load.height), is_soil(load, soil)) for load in loads]
+    everywhere = np.append(height, chain.base)
+    return Grounding.of(motion, everywhere, np.concatenate([*meets, [True]]))
 
 
 def split_memory(

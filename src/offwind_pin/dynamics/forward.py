@@ -10,7 +10,8 @@ from __future__ import annotations
 import math
 
 from offwind_pin.compiled import kernel
-from offwind_pin.dynamics.chain_arrays import ChainArrays
+from offwind_pin.dynamics.chain_arrays import BASE, ChainArrays
+from offwind_pin.dynamics.shaking import ACCELERATION, DISPLACED, VELOCITY, of_ground
 from offwind_pin.turbines.base import Array
 
 Vector = tuple[float, float, float]
@@ -62,11 +63,13 @@ def carried(
 
 
 @kernel
-def move(s: ChainArrays, q: Array, v: Array, a: Array) -> None:
+def move(s: ChainArrays, row: Array, q: Array, v: Array, a: Array) -> None:
     """Set place, orientation, velocity and acceleration of every body, and the joints' columns."""
     x, y, z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
-    place = (0.0, 0.0, s.base)
-    velocity = acceleration = spin = spin_rate = (0.0, 0.0, 0.0)
+    place = add((0.0, 0.0, s.base), of_ground(s, row, BASE, DISPLACED))
+    velocity = of_ground(s, row, BASE, VELOCITY)
+    acceleration = of_ground(s, row, BASE, ACCELERATION)
+    spin = spin_rate = (0.0, 0.0, 0.0)
     dof = 0
     for k in range(len(s.rise) + 1):
         slides = 3 if k == 0 else s.node_joints - 3
@@ -124,8 +127,11 @@ def move(s: ChainArrays, q: Array, v: Array, a: Array) -> None:
 
 
 @kernel
-def move_points(s: ChainArrays) -> None:
-    """Set the motion of the loaded points."""
+def move_points(s: ChainArrays, row: Array) -> None:
+    """Set the motion of the loaded points.
+
+    Where they meet the ground, displacement and velocity are those relative to it.
+    """
     for i in range(len(s.point_body)):
         k = s.point_body[i]
         axis = axis_of(s.rotation, k)
@@ -149,6 +155,12 @@ def move_points(s: ChainArrays) -> None:
         s.motion[i, 16] = (turn[0, 2] - turn[2, 0]) / 2
         s.motion[i, 17] = (turn[1, 0] - turn[0, 1]) / 2
         s.motion[i, 5] -= s.point_height[i]
+        if s.ground_level[i] >= 0:
+            displaced = of_ground(s, row, i, DISPLACED)
+            moving = of_ground(s, row, i, VELOCITY)
+            for j in range(3):
+                s.motion[i, 3 + j] -= displaced[j]
+                s.motion[i, 6 + j] -= moving[j]
 
 
 @kernel

@@ -20,6 +20,9 @@ STATE_ENERGIES = ("kinetic", "gravitational", "elastic", "root")
 JOINT_DAMPERS, ROOT = 0, 1
 """First columns of the energies dissipated; one for each load follows."""
 
+GROUND = 0
+"""First column of the energies worked, by a moving ground; a void one and the loads' follow."""
+
 
 class Cuts(NamedTuple):
     """Cuts of the chain at fixed heights: m cuts, each through one body.
@@ -67,7 +70,7 @@ class RecorderArrays(NamedTuple):
     imbalance: Array  # (T, g, 6) of the segments in N and N m
     stored: Array  # (T, L + 4) energies that the state holds in J, see STATE_ENERGIES
     dissipated: Array  # (T, L + 2) in J
-    worked: Array  # (T, L + 2) in J; the first two columns are of nothing that works
+    worked: Array  # (T, L + 2) in J; see GROUND
     iterations: NDArray[np.int32]  # (T,)
     residual: Array  # (T,) largest entry over the load scale
 

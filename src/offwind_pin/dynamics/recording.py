@@ -22,7 +22,14 @@ from offwind_pin.dynamics.forward import (
     scale,
     subtract,
 )
-from offwind_pin.dynamics.recorder_arrays import JOINT_DAMPERS, ROOT, Cuts, RecorderArrays
+from offwind_pin.dynamics.recorder_arrays import (
+    GROUND,
+    JOINT_DAMPERS,
+    ROOT,
+    Cuts,
+    RecorderArrays,
+)
+from offwind_pin.dynamics.shaking import power_of_ground
 from offwind_pin.turbines.base import Array
 
 
@@ -40,7 +47,7 @@ def take_note(
     if len(s.memory) > 0:
         commit(s, row, q)
     time = row[0]
-    add_energies(s, r, v, time - r.clock[0])
+    add_energies(s, r, row, v, time - r.clock[0])
     r.clock[0] = time
     r.tally[0] += 1
     if r.tally[0] % r.every == 0:
@@ -184,7 +191,7 @@ def store_energies(s: ChainArrays, q: Array, result: Array) -> None:
 
 
 @kernel
-def add_energies(s: ChainArrays, r: RecorderArrays, v: Array, step: float) -> None:
+def add_energies(s: ChainArrays, r: RecorderArrays, row: Array, v: Array, step: float) -> None:
     """Integrate the powers dissipated and worked over a step, by the trapezoidal rule.
 
     What was dissipated by the end of the step as such is added.
@@ -195,6 +202,7 @@ def add_energies(s: ChainArrays, r: RecorderArrays, v: Array, step: float) -> No
     add_power(r.energy[0], r.power[0], JOINT_DAMPERS, dampers, step)
     add_power(r.energy[0], r.power[0], ROOT, s.root_power[0], step)
     r.energy[0, ROOT] += s.heat[s.loads]
+    add_power(r.energy[1], r.power[1], GROUND, power_of_ground(s, row), step)
     for i in range(s.loads):
         add_power(r.energy[0], r.power[0], 2 + i, s.lost[i], step)
         r.energy[0, 2 + i] += s.heat[i]
@@ -210,7 +218,7 @@ def add_power(energy: Array, before: Array, column: int, power: float, step: flo
 
 @kernel
 def power_of(s: ChainArrays, load: int) -> float:
-    """Power in W of a load on the structure."""
+    """Power in W of a load on the structure; of one that the ground carries, relative to it."""
     power = 0.0
     for i in range(s.first_point[load], s.first_point[load + 1]):
         spin = row_of(s.spin, s.point_body[i])

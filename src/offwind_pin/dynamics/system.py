@@ -12,6 +12,7 @@ import pinocchio as pin
 from offwind_pin.dynamics.foundations import Foundation
 from offwind_pin.dynamics.sea import Sea
 from offwind_pin.dynamics.water_loads import Waters
+from offwind_pin.loads.ground_motion import GroundMotion
 from offwind_pin.loads.points import PointLoad
 from offwind_pin.structure.chain import Chain
 from offwind_pin.structure.model import Scratch
@@ -64,13 +65,15 @@ class System:
         loads: Sequence[PointLoad] = (),
         ramp_time: float = 0.0,
         memory: Array | None = None,
+        ground_motion: GroundMotion | None = None,
     ) -> Equations:
         """Equations of motion under loads, by Pinocchio.
 
         ramp_time : seconds over which waves, and the loads' departures from their means, rise; an
             infinite one keeps them away, as for statics and modes
         memory : (m,) what soil and foundation keep of their past, as in :class:`StaticResult`
+        ground_motion : of the ground below; root joints then move relative to it
         """
         from offwind_pin.dynamics.equations import Equations
 
-        return Equations(self, loads, ramp_time, memory)
+        return Equations(self, loads, ramp_time, memory, ground_motion)

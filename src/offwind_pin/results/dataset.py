@@ -38,6 +38,7 @@ class HistoryWriter:
     stores : (L,) whether each stores energy rather than works
     attributes : of the dataset
     constants : what does not change with time, by name: dimension, values, attributes
+    levels : (D,) heights in m at which the ground's motion is recorded; none without an earthquake
     """
 
     mudline: float
@@ -47,6 +48,7 @@ class HistoryWriter:
     stores: NDArray[np.bool_]
     attributes: dict[str, Any]
     constants: Mapping[str, tuple[str, Array, dict[str, str]]] = field(default_factory=dict)
+    levels: Array = field(default_factory=lambda: np.zeros(0))
 
     def write(self, store: BlockStore, status: str, directory: Path | str | None) -> xr.Dataset:
         """Dataset of all blocks; with a directory it stands in ``results.nc`` there.
@@ -73,12 +75,18 @@ class HistoryWriter:
         stored, dissipated, worked = (block[name] for name in ("stored", "dissipated", "worked"))
         balance = stored.sum(axis=1) - start + dissipated.sum(axis=1) - worked.sum(axis=1)
         holders = [True] * len(HOLDERS) + list(self.stores)
+        shaken = len(self.levels) > 0
+        sources = [shaken, False, *~self.stores]
         channels = {
-            "displacement": (along, displacement, _about("displacement of the axis", "m")),
+            "displacement": (
+                along,
+                displacement,
+                _about("displacement of the axis, absolute", "m"),
+            ),
             "acceleration": (
                 along,
                 block["acceleration"],
-                _about("acceleration of the axis", "m/s2"),
+                _about("acceleration of the axis, absolute", "m/s2"),
             ),
             "section_force": (along, load[..., :3], _about(f"section force: {SECTION}", "N")),
             "section_moment": (
@@ -139,8 +147,11 @@ class HistoryWriter:
             ),
             "energy_worked": (
                 ("time", "source"),
-                worked[:, 2:][:, ~self.stores],
-                {"long_name": "work done by loads since the start", "units": "J"},
+                worked[:, sources],
+                {
+                    "long_name": "work done by loads, and by a ground that moves, since the start",
+                    "units": "J",
+                },
             ),
             "energy_balance": (
                 ("time",),
@@ -175,8 +186,12 @@ class HistoryWriter:
             "segment": [f"{low:g} to {high:g} m" for low, high in self.segments],
             "holder": names[holders].tolist(),
             "sink": [*SINKS, *self.loads],
-            "source": np.array(self.loads)[~self.stores].tolist(),
+            "source": np.array(["ground", "", *self.loads])[sources].tolist(),
         }
+        if shaken:
+            channels |= _ground_channels(block["ground_motion"])
+            about = {"long_name": "height of the ground's recorded motion", "units": "m"}
+            coordinates["level"] = ("level", self.levels, about)
         attributes = {
             "title": "offwind-pin time histories",
             **versions(),
@@ -186,6 +201,16 @@ class HistoryWriter:
             "status": status,
         }
         return xr.Dataset({**channels, **self.constants}, coordinates, attributes)
+
+
+def _ground_channels(motion: Array) -> dict[str, Any]:
+    """Channels of the ground's motion (t, D, 3, 3)."""
+    along = ("time", "level", "direction")
+    units = {"displacement": "m", "velocity": "m/s", "acceleration": "m/s2"}
+    return {
+        f"ground_{name}": (along, motion[:, :, i], _about(f"{name} of the ground", unit))
+        for i, (name, unit) in enumerate(units.items())
+    }
 
 
 def versions() -> dict[str, str]:

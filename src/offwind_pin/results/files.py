@@ -12,7 +12,16 @@ from typing import Any
 import netCDF4
 import xarray as xr
 
-_FULL_PRECISION = {"time", "height", "mudline_moment", "mudline_force", "tower_top_displacement"}
+_FULL_PRECISION = {
+    "time",
+    "height",
+    "mudline_moment",
+    "mudline_force",
+    "tower_top_displacement",
+    "ground_displacement",
+    "ground_velocity",
+    "ground_acceleration",
+}
 
 _CHUNK = 256
 """Instants that a file holds, and a reader reads, at once."""
