@@ -44,12 +44,14 @@ from offwind_pin.solve.steps import AdaptiveStep, FixedStep
 from offwind_pin.turbines.definition import Turbine
 from offwind_pin.turbines.reader import load_turbine, shipped_turbines
 from offwind_pin.turbines.rotor_disc import rotor_disc
+from offwind_pin.turbines.tuned_mass import DampedAbsorber, den_hartog
 
 __all__ = [
     "AdaptiveStep",
     "Condensation",
     "CurrentSum",
     "CurrentTable",
+    "DampedAbsorber",
     "DeflectionTarget",
     "ExtremeOperatingGust",
     "FixedStep",
@@ -87,6 +89,7 @@ __all__ = [
     "aerodynamic_damping",
     "build",
     "condense",
+    "den_hartog",
     "equivalent_damping",
     "export_urdf",
     "identify_soil",

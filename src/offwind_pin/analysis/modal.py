@@ -14,7 +14,10 @@ from offwind_pin.solve.eigen import natural_modes
 from offwind_pin.turbines.base import Array
 
 FAMILIES = {"FA": "fore-aft", "SS": "side-side", "T": "torsion", "V": "vertical"}
+_DAMPERS = {"TMD": "tuned mass damper"}
 _FAMILY_OF_JOINT = {"px": "FA", "ry": "FA", "py": "SS", "rx": "SS", "rz": "T", "pz": "V"}
+_MOSTLY = 0.5
+"""Share of the potential energy in springs of tuned mass dampers above which a mode is theirs."""
 _ORDINALS = {1: "first", 2: "second", 3: "third", 4: "fourth", 5: "fifth", 6: "sixth"}
 _EQUAL = 1e-6
 """Relative difference of squared frequencies below which two modes are one pair."""
@@ -29,8 +32,11 @@ class ModalResult:
     ----------
     frequency_hz : (n,) undamped natural frequencies
     damping_ratio : (n,) phi' D phi / (2 omega), of critical; exact for light damping
-    label : n labels FA1, SS1, T1, V1, ... numbered by frequency within each family
-    participation : (n, 4) share of the potential energy in FA, SS, T, V
+    label : n labels FA1, SS1, T1, V1, ... numbered by frequency within each family; TMD1, TMD2, ...
+        where more than half of the potential energy is in springs of tuned mass dampers
+    participation : (n, 4) share of the potential energy in FA, SS, T, V, a damper's springs in the
+        plane that they act in
+    damper_share : (n,) share of the potential energy in the springs of tuned mass dampers
     height : (m,) heights of the element boundaries in m
     shape : (n, m, 6) displacements (m) and rotations (rad) of the axis, unit peak in the mode's own
         direction (translation, or rotation about z for torsion), positive there
@@ -43,6 +49,7 @@ class ModalResult:
     damping_ratio: Array
     label: list[str]
     participation: Array
+    damper_share: Array
     height: Array
     shape: Array
     mass_normalised: Array
@@ -64,7 +71,7 @@ class ModalResult:
 
 
 def mode_family(label: str) -> str:
-    """FA, SS, T or V."""
+    """FA, SS, T, V or TMD."""
     return label.rstrip("0123456789")
 
 
@@ -72,7 +79,7 @@ def mode_name(label: str) -> str:
     """A label in words: ``FA2`` is "second fore-aft"."""
     family = mode_family(label)
     order = int(label.removeprefix(family))
-    return f"{_ORDINALS.get(order, f'{order}th')} {FAMILIES[family]}"
+    return f"{_ORDINALS.get(order, f'{order}th')} {(FAMILIES | _DAMPERS)[family]}"
 
 
 def modes(system: System, n: int = 8, about: StaticResult | None = None) -> ModalResult:
@@ -103,7 +110,8 @@ def modes(system: System, n: int = 8, about: StaticResult | None = None) -> Moda
     omega = np.sqrt(found[0][:n])
     dissipation = np.sum(vectors * (damping @ vectors), axis=0)
     participation = _participation(system, stiffness, vectors)
-    label, family = _labels(participation)
+    share = _damper_share(system, stiffness, vectors)
+    label, family = _labels(participation, share)
     height = system.chain.boundary
     shape = np.array([_axis_shape(equations, state.q, vector, height) for vector in vectors.T])
     peak = np.empty(n)
@@ -123,6 +131,7 @@ def modes(system: System, n: int = 8, about: StaticResult | None = None) -> Moda
         damping_ratio=dissipation / (2 * omega),
         label=label,
         participation=participation,
+        damper_share=share,
         height=height,
         shape=unit,
         mass_normalised=normalised,
@@ -137,6 +146,14 @@ def _participation(system: System, stiffness: Array, vectors: Array) -> Array:
     kind = _family_of_joints(system)
     energy = np.array([work[kind == family].sum(axis=0) for family in FAMILIES]).T
     return energy / energy.sum(axis=1, keepdims=True)
+
+
+def _damper_share(system: System, stiffness: Array, vectors: Array) -> Array:
+    """(n,) share of the tuned mass dampers' springs in the potential energy of each mode."""
+    work = vectors * (stiffness @ vectors)
+    springs = system.joint_stiffness[system.chain.axis_joints :, None]
+    stored = np.sum(springs * vectors[system.chain.axis_joints :] ** 2, axis=0)
+    return np.asarray(stored / work.sum(axis=0))
 
 
 def _separate_planes(system: System, stiffness: Array, squares: Array, vectors: Array) -> Array:
@@ -159,10 +176,14 @@ def _family_of_joints(system: System) -> np.ndarray[tuple[int], np.dtype[np.str_
     return np.array([_FAMILY_OF_JOINT[name[-2:]] for name in system.chain.joint_name])
 
 
-def _labels(participation: Array) -> tuple[list[str], list[str]]:
+def _labels(participation: Array, damper_share: Array) -> tuple[list[str], list[str]]:
+    """Labels, and the families in whose direction the axis moves."""
     families = list(FAMILIES)
     family = [families[i] for i in np.argmax(participation, axis=1)]
-    label = [f"{name}{family[: i + 1].count(name)}" for i, name in enumerate(family)]
+    mode_of = [
+        "TMD" if share > _MOSTLY else name for name, share in zip(family, damper_share, strict=True)
+    ]
+    label = [f"{name}{mode_of[: i + 1].count(name)}" for i, name in enumerate(mode_of)]
     return label, family
 
 

@@ -88,8 +88,9 @@ def simulate(
     -------
     Dataset with ``displacement``, ``acceleration``, ``section_force`` and ``section_moment`` over
     time and height, the mudline and tower-top channels, the applied load, the waves, the ledger of
-    energies, and the solver's own account; see ``attrs`` for versions, seeds and settings. With a
-    ``directory`` it reads from the file there, channel by channel as they are asked for.
+    energies, the displacements of tuned mass dampers, and the solver's own account; see ``attrs``
+    for versions, seeds and settings. With a ``directory`` it reads from the file there, channel by
+    channel as they are asked for.
 
     Raises
     ------
@@ -128,6 +129,7 @@ def simulate(
         [load.name for load in chain.loads],
         chain.stores,
         attributes,
+        [mass.name for mass in system.chain.sliding_mass],
     )
     if len(store) == 0:
         state, records = first_record(chain, sections, state)

@@ -30,6 +30,7 @@ class Cuts(NamedTuple):
     height: Array  # (m,) in m
     body: NDArrayInt  # (m,) that is cut
     offset: Array  # (m,) of the cut along it in m
+    end: Array  # (m,) height at which that body ends in m, beyond everything for the last one
     piece: Array  # (m, 4) mass, centre along the body, transverse and axial inertia
     first: NDArrayInt  # (m + 1,) where the points above each cut begin in the next array
     point: NDArrayInt  # loaded points of a cut's own body that lie above it
@@ -65,6 +66,7 @@ class RecorderArrays(NamedTuple):
     acceleration: Array  # (T, m, 3) in m/s2
     section_load: Array  # (T, m, 6) in N and N m
     imbalance: Array  # (T, g, 6) of the segments in N and N m
+    slip: Array  # (T, D, 2) of the tuned mass dampers along x and y of their carriers in m
     stored: Array  # (T, L + 4) energies that the state holds in J, see STATE_ENERGIES
     dissipated: Array  # (T, L + 2) in J
     worked: Array  # (T, L + 2) in J; the first two columns are of nothing that works
@@ -85,6 +87,7 @@ def make_cuts(system: System, s: ChainArrays, height: Array) -> Cuts:
         height=height,
         body=body,
         offset=height - chain.origin[body],
+        end=np.append(chain.joint_height, np.inf)[body],
         piece=_pieces(system, body, height, ends),
         first=_beginnings(above),
         point=np.concatenate([np.zeros(0, dtype=np.intp), *above]),
@@ -163,6 +166,7 @@ def make_recorder(
         acceleration=np.zeros((records, m, 3)),
         section_load=np.zeros((records, m, 6)),
         imbalance=np.zeros((records, len(segments.cut), 6)),
+        slip=np.zeros((records, len(s.slider_body), 2)),
         stored=np.zeros((records, loads + len(STATE_ENERGIES))),
         dissipated=np.zeros((records, loads + 2)),
         worked=np.zeros((records, loads + 2)),

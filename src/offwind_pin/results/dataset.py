@@ -37,6 +37,7 @@ class HistoryWriter:
     loads : names of the loads
     stores : (L,) whether each stores energy rather than works
     attributes : of the dataset
+    dampers : names of the tuned mass dampers
     """
 
     mudline: float
@@ -45,6 +46,7 @@ class HistoryWriter:
     loads: Sequence[str]
     stores: NDArray[np.bool_]
     attributes: dict[str, Any]
+    dampers: Sequence[str] = ()
 
     def write(self, store: BlockStore, status: str, directory: Path | str | None) -> xr.Dataset:
         """Dataset of all blocks; with a directory it stands in ``results.nc`` there.
@@ -159,6 +161,16 @@ class HistoryWriter:
                 {"long_name": "largest residual over the load scale", "units": "1"},
             ),
         }
+        if self.dampers:
+            channels["tuned_mass_displacement"] = (
+                ("time", "damper", "across"),
+                block["slip"],
+                {
+                    "long_name": "displacement of a tuned mass damper's mass against its carrier",
+                    "units": "m",
+                    "frame": "x and y of the body that carries it",
+                },
+            )
         names = np.array([*HOLDERS, *self.loads])
         coordinates = {
             "time": ("time", block["time"], {"long_name": "simulated time", "units": "s"}),
@@ -170,6 +182,8 @@ class HistoryWriter:
             "sink": [*SINKS, *self.loads],
             "source": np.array(self.loads)[~self.stores].tolist(),
         }
+        if self.dampers:
+            coordinates |= {"damper": list(self.dampers), "across": ["x", "y"]}
         attributes = {
             "title": "offwind-pin time histories",
             **versions(),
