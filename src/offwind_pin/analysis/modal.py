@@ -17,7 +17,7 @@ FAMILIES = {"FA": "fore-aft", "SS": "side-side", "T": "torsion", "V": "vertical"
 _DAMPERS = {"TMD": "tuned mass damper"}
 _FAMILY_OF_JOINT = {"px": "FA", "ry": "FA", "py": "SS", "rx": "SS", "rz": "T", "pz": "V"}
 _MOSTLY = 0.5
-"""Share of the potential energy in springs of tuned mass dampers above which a mode is theirs."""
+"""Share of the potential energy in springs of tuned mass dampers that makes a mode theirs."""
 _ORDINALS = {1: "first", 2: "second", 3: "third", 4: "fourth", 5: "fifth", 6: "sixth"}
 _EQUAL = 1e-6
 """Relative difference of squared frequencies below which two modes are one pair."""
@@ -32,8 +32,9 @@ class ModalResult:
     ----------
     frequency_hz : (n,) undamped natural frequencies
     damping_ratio : (n,) phi' D phi / (2 omega), of critical; exact for light damping
-    label : n labels FA1, SS1, T1, V1, ... numbered by frequency within each family; TMD1, TMD2, ...
-        where more than half of the potential energy is in springs of tuned mass dampers
+    label : n labels FA1, SS1, T1, V1, ... numbered by frequency within each family, the modes of
+        tuned mass dampers left out: these are TMD1, TMD2, ..., in each plane as many as dampers
+        slide in it, with the largest share of the potential energy in their springs, half or more
     participation : (n, 4) share of the potential energy in FA, SS, T, V, a damper's springs in the
         plane that they act in
     damper_share : (n,) share of the potential energy in the springs of tuned mass dampers
@@ -68,6 +69,10 @@ class ModalResult:
                 "mode", label, ", ".join(self.label), "Choose one of them, or compute more modes."
             )
         return self.label.index(label)
+
+    def direction(self, label: str) -> str:
+        """FA, SS, T or V: how the axis moves in a mode, one of tuned mass dampers as well."""
+        return list(FAMILIES)[int(np.argmax(self.participation[self.index(label)]))]
 
 
 def mode_family(label: str) -> str:
@@ -104,14 +109,17 @@ def modes(system: System, n: int = 8, about: StaticResult | None = None) -> Moda
     rest = np.zeros(system.nv)
     equations = system.equations(state.loads, np.inf, state.memory)
     stiffness, damping = equations.tangents(0.0, state.q, rest)
-    # One mode more than asked for, so that no pair of equal frequency is cut in two.
-    found = natural_modes(stiffness, equations.mass(state.q), min(n + 1, system.nv))
-    vectors = _separate_planes(system, stiffness, *found)[:, :n]
-    omega = np.sqrt(found[0][:n])
-    dissipation = np.sum(vectors * (damping @ vectors), axis=0)
+    # One mode more than asked for, so that no pair of equal frequency is cut in two; and more where
+    # dampers split modes, so that labels do not depend on how many are asked for.
+    count = n + 1 + 2 * (system.nv - system.chain.axis_joints)
+    found = natural_modes(stiffness, equations.mass(state.q), min(count, system.nv))
+    vectors = _separate_planes(system, stiffness, *found)
     participation = _participation(system, stiffness, vectors)
     share = _damper_share(system, stiffness, vectors)
-    label, family = _labels(participation, share)
+    label, family = (part[:n] for part in _labels(participation, share, _sliding(system)))
+    vectors = vectors[:, :n]
+    omega = np.sqrt(found[0][:n])
+    dissipation = np.sum(vectors * (damping @ vectors), axis=0)
     height = system.chain.boundary
     shape = np.array([_axis_shape(equations, state.q, vector, height) for vector in vectors.T])
     peak = np.empty(n)
@@ -130,8 +138,8 @@ def modes(system: System, n: int = 8, about: StaticResult | None = None) -> Moda
         frequency_hz=omega / (2 * np.pi),
         damping_ratio=dissipation / (2 * omega),
         label=label,
-        participation=participation,
-        damper_share=share,
+        participation=participation[:n],
+        damper_share=share[:n],
         height=height,
         shape=unit,
         mass_normalised=normalised,
@@ -176,13 +184,24 @@ def _family_of_joints(system: System) -> np.ndarray[tuple[int], np.dtype[np.str_
     return np.array([_FAMILY_OF_JOINT[name[-2:]] for name in system.chain.joint_name])
 
 
-def _labels(participation: Array, damper_share: Array) -> tuple[list[str], list[str]]:
+def _sliding(system: System) -> dict[str, int]:
+    """How many tuned mass dampers slide in the plane of each family."""
+    joints = _family_of_joints(system)[system.chain.axis_joints :].tolist()
+    return {family: joints.count(family) for family in FAMILIES}
+
+
+def _labels(
+    participation: Array, damper_share: Array, sliding: dict[str, int]
+) -> tuple[list[str], list[str]]:
     """Labels, and the families in whose direction the axis moves."""
     families = list(FAMILIES)
     family = [families[i] for i in np.argmax(participation, axis=1)]
-    mode_of = [
-        "TMD" if share > _MOSTLY else name for name, share in zip(family, damper_share, strict=True)
-    ]
+    mode_of = list(family)
+    for name, count in sliding.items():
+        theirs = [i for i in np.argsort(-damper_share, kind="stable") if family[i] == name]
+        for i in theirs[:count]:
+            if damper_share[i] >= _MOSTLY:
+                mode_of[i] = "TMD"
     label = [f"{name}{mode_of[: i + 1].count(name)}" for i, name in enumerate(mode_of)]
     return label, family
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import logging
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
@@ -34,6 +35,8 @@ from offwind_pin.results.dataset import HistoryWriter
 from offwind_pin.solve.steps import FixedStep
 from offwind_pin.structure.urdf import definition_hash
 from offwind_pin.turbines.base import Array
+
+_log = logging.getLogger(__name__)
 
 Progress = Callable[[float], None]
 
@@ -129,8 +132,9 @@ def simulate(
         [load.name for load in chain.loads],
         chain.stores,
         attributes,
-        [mass.name for mass in system.chain.sliding_mass],
+        {mass.name: mass.travel for mass in system.chain.sliding_mass},
     )
+    cautioned: set[str] = set()
     if len(store) == 0:
         state, records = first_record(chain, sections, state)
         store.append(_block(chain, state, records))
@@ -143,6 +147,7 @@ def simulate(
             times = interval * np.arange(done + 1, until + 1, dtype=float)
             state, records = method.cross(chain, sections, state, times)
             store.append(_block(chain, state, records))
+            _caution_of_travel(system, records, cautioned)
             done = until
             if progress is not None:
                 progress(state.time)
@@ -166,6 +171,23 @@ def simulate(
     if isinstance(store, FolderStore):
         store.remove()
     return data
+
+
+def _caution_of_travel(system: System, records: Records, cautioned: set[str]) -> None:
+    """Say once of each tuned mass damper that it goes further than it has room for."""
+    for d, mass in enumerate(system.chain.sliding_mass):
+        way = np.linalg.norm(records["slip"][:, d], axis=1)
+        if mass.name not in cautioned and np.any(way > mass.travel):
+            cautioned.add(mass.name)
+            first = int(np.argmax(way > mass.travel))
+            _log.warning(
+                "tuned mass damper %s slides %.3g m at t = %.6g s; it has room for %.3g m, and no "
+                "stop is modelled",
+                mass.name,
+                way[first],
+                records["time"][first],
+                mass.travel,
+            )
 
 
 def _outputs_per_block(method: Integrator, interval: float) -> int:

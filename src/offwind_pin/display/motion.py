@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from offwind_pin.analysis.modal import ModalResult, mode_family
+from offwind_pin.analysis.modal import ModalResult
 from offwind_pin.dynamics.poses import body_poses
 from offwind_pin.dynamics.system import System
 from offwind_pin.turbines.base import Array
@@ -52,7 +52,7 @@ def mode_motion(system: System, result: ModalResult, label: str) -> ModeMotion:
     InputError : no mode of that label among those computed
     """
     index = result.index(label)
-    family = mode_family(label)
+    family = result.direction(label)
     amplitude = body_amplitude(result, label)
     scale = _scale(system, result.mass_normalised[index], family, float(amplitude.max()))
     vector = scale * result.vector[:, index]
@@ -71,7 +71,7 @@ def body_amplitude(result: ModalResult, label: str) -> Array:
     It is taken at the element boundary that the body crosses, or ends at if lowest or highest.
     """
     shape = result.mass_normalised[result.index(label)]
-    if mode_family(label) == "T":
+    if result.direction(label) == "T":
         return np.asarray(np.abs(shape[:, 5]))
     return np.asarray(np.linalg.norm(shape[:, :3], axis=1))
 

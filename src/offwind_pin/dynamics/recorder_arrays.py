@@ -105,7 +105,8 @@ def make_segments(
         inside = np.flatnonzero((edge[:-1] < high) & (edge[1:] > low))
         low_ends, high_ends = np.maximum(edge[inside], low), np.minimum(edge[inside + 1], high)
         bodies.append(inside)
-        pieces.append(_pieces(system, inside, low_ends, high_ends))
+        # A point mass at the yaw bearing lies above the cut there, as loads there do.
+        pieces.append(_pieces(system, inside, low_ends, high_ends, with_end=False))
         points.append(np.flatnonzero(_is_above(system, s, low) & ~_is_above(system, s, high)))
     at = [[int(np.argmin(np.abs(cuts.height - z))) for z in pair] for pair in ends]
     none = np.zeros(0, dtype=np.intp)
@@ -128,11 +129,13 @@ def _is_above(system: System, s: ChainArrays, height: float) -> NDArray[np.bool_
     return (s.point_height > height + 1e-9) | (s.point_height == system.chain.top)
 
 
-def _pieces(system: System, body: NDArrayInt, low: Array, high: Array) -> Array:
+def _pieces(
+    system: System, body: NDArrayInt, low: Array, high: Array, *, with_end: bool = True
+) -> Array:
     """(n, 4) mass, centre along the body, transverse and axial inertia of parts of bodies."""
     rows = []
     for k, bottom, top in zip(body, low, high, strict=True):
-        piece = lump(system.turbine, bottom, top)
+        piece = lump(system.turbine, bottom, top, with_end=with_end)
         center = piece.center - system.chain.origin[k]
         rows.append([piece.mass, center, piece.transverse, piece.axial])
     return np.array(rows).reshape(-1, 4)

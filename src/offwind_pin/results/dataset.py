@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from importlib import metadata
 from pathlib import Path
 from typing import Any
@@ -37,7 +37,7 @@ class HistoryWriter:
     loads : names of the loads
     stores : (L,) whether each stores energy rather than works
     attributes : of the dataset
-    dampers : names of the tuned mass dampers
+    dampers : travel in m of each tuned mass damper by its name
     """
 
     mudline: float
@@ -46,7 +46,7 @@ class HistoryWriter:
     loads: Sequence[str]
     stores: NDArray[np.bool_]
     attributes: dict[str, Any]
-    dampers: Sequence[str] = ()
+    dampers: Mapping[str, float] = field(default_factory=dict)
 
     def write(self, store: BlockStore, status: str, directory: Path | str | None) -> xr.Dataset:
         """Dataset of all blocks; with a directory it stands in ``results.nc`` there.
@@ -170,6 +170,11 @@ class HistoryWriter:
                     "units": "m",
                     "frame": "x and y of the body that carries it",
                 },
+            )
+            channels["tuned_mass_travel"] = (
+                ("damper",),
+                np.array(list(self.dampers.values())),
+                {"long_name": "displacement that a tuned mass damper has room for", "units": "m"},
             )
         names = np.array([*HOLDERS, *self.loads])
         coordinates = {

@@ -7,6 +7,7 @@ the next element and the rotor-nacelle assembly, so that the dampers of the high
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from offwind_pin.turbines.definition import Turbine
@@ -26,6 +27,7 @@ class SlidingMass:
     mass : in kg
     joints : ``px``, ``py`` or both, along x and y of the carrier
     stiffness, damping : of each joint's spring in N/m and damper in N s/m
+    travel : distance in m that there is room for, or infinite
     """
 
     name: str
@@ -35,6 +37,7 @@ class SlidingMass:
     joints: tuple[str, ...]
     stiffness: float
     damping: float
+    travel: float
 
     @property
     def joint_names(self) -> tuple[str, ...]:
@@ -55,6 +58,7 @@ def sliding_masses(turbine: Turbine, base: float, joint_height: list[float]) -> 
             joints=_JOINTS[damper.direction],
             stiffness=damper.stiffness,
             damping=damper.damping,
+            travel=math.inf if damper.travel is None else damper.travel,
         )
         for damper in turbine.tuned_mass_dampers
         if damper.z >= base

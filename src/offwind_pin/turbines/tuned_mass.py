@@ -23,7 +23,8 @@ class TunedMassDamper(Definition):
 
     Along the axis the body that carries it holds it. Spring and damper are given as such, or by the
     natural frequency and the damping ratio of the damper on a carrier at rest; with
-    ``direction: both`` they are the same along x and y of the carrier.
+    ``direction: both`` they are the same along x and y of the carrier. The travel stops nothing:
+    simulations tell where it is exceeded.
     """
 
     name: Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$")]
@@ -36,6 +37,7 @@ class TunedMassDamper(Definition):
         alias="frequency_hz", default=None
     )
     damping_ratio: Annotated[NonNegative, Field(le=10)] | None = None
+    travel: Positive | None = Field(alias="travel_m", default=None)
 
     @model_validator(mode="after")
     def _tuned_in_one_way(self) -> TunedMassDamper:
