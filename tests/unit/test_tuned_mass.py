@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 import offwind_pin as ow
 from offwind_pin.analysis.integrators import GeneralizedAlpha
 from offwind_pin.display.animation import animate
+from offwind_pin.display.motion import PEAK_SHARE, mode_motion
 from offwind_pin.display.plots import mode_shapes
 from offwind_pin.dynamics.compiled_chain import CompiledChain
 from offwind_pin.loads.tower_top import TowerTopLoad
@@ -359,6 +360,15 @@ def test_it_is_shown(damped: ow.System) -> None:
     assert "TMD1" in result.label
     page = animate(damped, result, "TMD1")
     assert "first tuned mass damper" in page
+    of_top = damped.chain.joint_name.index("zz_tmd_nacelle_px")
+    label = result.label[int(np.argmax(np.abs(result.vector[of_top])))]
+    motion = mode_motion(damped, result, label)
+    offset = damped.chain.top - damped.chain.origin[-1]
+    carried = motion.poses[:, -1, :3, 3] + offset * motion.poses[:, -1, :3, 2]
+    slid = np.linalg.norm(motion.sliding[:, 0, :3, 3] - carried, axis=1)
+    height = damped.chain.top - damped.chain.base
+    assert 0.2 * PEAK_SHARE * height < slid.max() <= PEAK_SHARE * height * 1.01
+    assert np.abs(motion.sliding[0] - motion.sliding[-1]).max() < 1e-9
     labels = [
         text.get_text()
         for axes in mode_shapes(result, damped.turbine.site.mudline).axes

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from offwind_pin.analysis.modal import ModalResult
-from offwind_pin.dynamics.poses import body_poses
+from offwind_pin.dynamics.poses import body_poses, sliding_mass_poses
 from offwind_pin.dynamics.system import System
 from offwind_pin.turbines.base import Array
 
@@ -31,12 +31,14 @@ class ModeMotion:
     ----------
     family : FA, SS, T or V
     poses : (FRAMES + 1, N + 1, 4, 4) of the bodies, a sine from and to the upright state
+    sliding : (FRAMES + 1, D, 4, 4) of the masses of tuned mass dampers
     share : (N + 1,) amplitude of each body over the largest one
     peak : the largest amplitude drawn, in m, or in rad for torsion
     """
 
     family: str
     poses: Array
+    sliding: Array
     share: Array
     peak: float
 
@@ -55,11 +57,16 @@ def mode_motion(system: System, result: ModalResult, label: str) -> ModeMotion:
     family = result.direction(label)
     amplitude = body_amplitude(result, label)
     scale = _scale(system, result.mass_normalised[index], family, float(amplitude.max()))
+    slips = np.abs(result.vector[system.chain.axis_joints :, index])
+    if slips.any():
+        scale = min(scale, _widest(system) / float(slips.max()))
     vector = scale * result.vector[:, index]
     phase = 2 * np.pi * np.arange(FRAMES + 1) / FRAMES
+    swing = [np.sin(angle) * vector for angle in phase]
     return ModeMotion(
         family=family,
-        poses=np.array([body_poses(system, np.sin(angle) * vector) for angle in phase]),
+        poses=np.array([body_poses(system, q) for q in swing]),
+        sliding=np.array([sliding_mass_poses(system, q) for q in swing]),
         share=amplitude / amplitude.max(),
         peak=scale * float(amplitude.max()),
     )
@@ -76,10 +83,15 @@ def body_amplitude(result: ModalResult, label: str) -> Array:
     return np.asarray(np.linalg.norm(shape[:, :3], axis=1))
 
 
+def _widest(system: System) -> float:
+    """Peak displacement drawn in m, of the axis or of a tuned mass damper against it."""
+    return PEAK_SHARE * (system.chain.top - system.chain.base)
+
+
 def _scale(system: System, shape: Array, family: str, largest: float) -> float:
     """Factor on the mass-normalised mode."""
     if family == "T":
         return float(PEAK_TWIST / largest)
-    wanted = PEAK_SHARE * (system.chain.top - system.chain.base)
+    wanted = _widest(system)
     tilt = float(np.linalg.norm(shape[:, 3:], axis=1).max())
     return float(min(wanted / largest, PEAK_TILT / tilt if tilt > 0 else np.inf))

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from offwind_pin.structure.chain import Chain
-from offwind_pin.structure.meshes import Mesh, body_meshes
+from offwind_pin.structure.meshes import Mesh, body_meshes, damper_disc
 from offwind_pin.structure.rotor import rna_meshes
 from offwind_pin.structure.section import outer_diameter
 from offwind_pin.structure.tuned_mass import SlidingMass
@@ -19,9 +19,6 @@ from offwind_pin.turbines.definition import Turbine
 
 _AXIS = {"x": "1 0 0", "y": "0 1 0", "z": "0 0 1"}
 _YELLOW, _WHITE, _RED = "0.93 0.77 0.20 1", "0.88 0.89 0.90 1", "0.75 0.22 0.17 1"
-_DISC = (0.6, 0.2)
-"""Radius and thickness of the disc drawn for a tuned mass damper, over the structure's diameter
-there: it shows outside the wall."""
 
 
 def write_urdf(turbine: Turbine, chain: Chain) -> str:
@@ -181,9 +178,8 @@ def _sliding_mass(robot: ET.Element, turbine: Turbine, chain: Chain, mass: Slidi
         parent, rise = child, 0.0
         link = ET.SubElement(robot, "link", name=child)
     _inertial(link, mass.mass, np.zeros(3), np.zeros((3, 3)))
-    diameter = float(outer_diameter(turbine, np.array([mass.height]))[0])
     visual = ET.SubElement(link, "visual")
-    radius, thickness = (share * diameter for share in _DISC)
+    radius, thickness = damper_disc(turbine, mass)
     disc = {"radius": _text(radius), "length": _text(thickness)}
     ET.SubElement(ET.SubElement(visual, "geometry"), "cylinder", disc)
     ET.SubElement(visual, "material", name="damper_red")
