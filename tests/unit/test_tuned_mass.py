@@ -7,8 +7,9 @@ import numpy as np
 import pinocchio as pin
 import pytest
 import xarray as xr
+from helpers.by_hand import section_loads
 from helpers.dampers import damper, several, with_dampers
-from helpers.numerics import fitted_order
+from helpers.numerics import fitted_order, relative_difference
 from helpers.states import random_state
 from numpy.typing import NDArray
 
@@ -19,6 +20,7 @@ from offwind_pin.display.motion import PEAK_SHARE, mode_motion
 from offwind_pin.display.plots import mode_shapes
 from offwind_pin.dynamics.compiled_chain import CompiledChain
 from offwind_pin.loads.tower_top import TowerTopLoad
+from offwind_pin.structure.chain import Element
 from offwind_pin.structure.model import build_model
 from offwind_pin.structure.urdf import definition_hash, write_sidecar, write_urdf
 from offwind_pin.turbines.definition import PointMass
@@ -64,7 +66,7 @@ def test_a_tilted_mass_hangs_in_its_spring(damped: ow.System) -> None:
 
 
 @pytest.mark.parametrize("element", ["euler_bernoulli", "timoshenko"])
-def test_a_locked_damper_is_a_point_mass(undamped: ow.Turbine, element: str) -> None:
+def test_a_locked_damper_is_a_point_mass(undamped: ow.Turbine, element: Element) -> None:
     """As the spring grows, statics and modes go to those of the same point mass, like 1 / k."""
     push = np.array([1e6, 0, 0, 0, 0, 0.0])
     errors: list[list[float]] = []
@@ -77,7 +79,7 @@ def test_a_locked_damper_is_a_point_mass(undamped: ow.Turbine, element: str) -> 
             damper("high", undamped.yaw_bearing, "both", **tuning),
         )
         systems = [
-            ow.build(t, "coupled_springs", elements=6, element=element)  # type: ignore[arg-type]
+            ow.build(t, "coupled_springs", elements=6, element=element)
             for t in (turbine, turbine.with_dampers_locked())
         ]
         modes = [ow.modes(system, 6) for system in systems]
@@ -375,3 +377,28 @@ def test_it_is_shown(damped: ow.System) -> None:
         for text in axes.get_legend().get_texts()
     ]
     assert any(text.startswith("TMD1") for text in labels)
+
+
+@pytest.mark.parametrize("element", ["euler_bernoulli", "timoshenko"])
+def test_a_damper_on_a_clamped_base(undamped: ow.Turbine, element: Element) -> None:
+    """The lowest body does not move, its damper does: residual, tangent, section loads."""
+    system = ow.build(several(undamped), "clamped", elements=6, element=element)
+    assert [mass.body for mass in system.chain.sliding_mass][-1] == 0
+    state, chain = random_state(system, 4), CompiledChain(system)
+    equations, row = chain.equations(), chain.rows(np.zeros(1))[0]
+    found = chain.residual(row, state.q, state.v, state.a)
+    expected = equations.residual(0.0, state.q, state.v, state.a)
+    sliding = slice(system.chain.axis_joints, None)
+    for part in (slice(0, system.chain.axis_joints), sliding):
+        assert relative_difference(found[part], expected[part]) < 1e-12
+    rest = np.zeros(system.nv)
+    for by_v, by_a in ((0.0, 0.0), (111.0, 1.23e4)):
+        chain.factorise(row, state.q, rest, rest, by_v, by_a)
+        inverse = np.array([chain.correction(unit) for unit in np.eye(system.nv)]).T
+        stiffness, damping = equations.tangents(0.0, state.q, rest)
+        matrix = by_a * equations.mass(state.q) + by_v * damping + stiffness
+        assert np.abs(matrix @ inverse - np.eye(system.nv)).max() < 1e-9
+    cuts = np.array([system.chain.base, 20.0, 20.1, system.chain.top])
+    record = chain.record(chain.sections(cuts), row, state.q, state.v, state.a)
+    by_joints = section_loads(equations, cuts, 0.0, state.q, state.v, state.a)
+    assert relative_difference(record.section_load[0], by_joints) < 1e-11
