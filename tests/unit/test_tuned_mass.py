@@ -237,16 +237,30 @@ def test_modes_split_and_keep_their_names(oc6: ow.Turbine) -> None:
     assert found.damping_ratio[found.index("TMD1")] > 0.03
 
 
-def test_labels_do_not_hang_on_how_many_are_asked_for(undamped: ow.Turbine) -> None:
-    """Two dampers tuned to one mode make three, one of which stays FA1."""
-    several_tuned = with_dampers(
-        undamped,
-        *(damper(n, 110.0, "fore_aft", 5e4, frequency_hz=0.26, damping_ratio=0.1) for n in "ab"),
+def two_in_one_plane(turbine: ow.Turbine, frequency: tuple[float, float]) -> ow.Turbine:
+    return with_dampers(
+        turbine,
+        *(
+            damper(name, 115.0, "fore_aft", 5e4, frequency_hz=own, damping_ratio=0.1)
+            for name, own in zip("ab", frequency, strict=True)
+        ),
     )
-    system = ow.build(several_tuned, "clamped", elements=8)
+
+
+@pytest.mark.parametrize("apart", [0.0, 0.1])
+def test_labels_do_not_hang_on_how_many_are_asked_for(undamped: ow.Turbine, apart: float) -> None:
+    """Two dampers tuned around one mode make three, one of which stays FA1: also where all three
+    hold most of their energy in the dampers."""
+    locked = two_in_one_plane(undamped, (0.2, 0.2)).with_dampers_locked()
+    plain = ow.modes(ow.build(locked, "clamped", elements=8), 2)
+    first = float(plain.frequency_hz[plain.index("FA1")])
+    tuned = two_in_one_plane(undamped, (first * (1 - apart), first * (1 + apart)))
+    system = ow.build(tuned, "clamped", elements=8)
     whole = ow.modes(system, 10)
-    assert whole.label.count("TMD1") == whole.label.count("TMD2") == whole.label.count("FA1") == 1
+    three = [whole.index(label) for label in ("TMD1", "TMD2", "FA1")]
     assert "TMD3" not in whole.label
+    assert np.all(whole.frequency_hz[three] < 2 * first)
+    assert bool(np.all(whole.damper_share[three] > 0.5)) == (apart > 0)
     for n in (1, 2, 3, 5):
         assert ow.modes(system, n).label == whole.label[:n]
 
