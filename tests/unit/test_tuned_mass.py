@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 import offwind_pin as ow
 from offwind_pin.analysis.integrators import GeneralizedAlpha
+from offwind_pin.campaign.overview import overview
 from offwind_pin.display.animation import animate
 from offwind_pin.display.motion import PEAK_SHARE, mode_motion
 from offwind_pin.display.plots import mode_shapes
@@ -24,6 +25,7 @@ from offwind_pin.structure.chain import Element
 from offwind_pin.structure.model import build_model
 from offwind_pin.structure.urdf import definition_hash, write_sidecar, write_urdf
 from offwind_pin.turbines.definition import PointMass
+from offwind_pin.turbines.soil import Soil
 
 Array = NDArray[np.float64]
 
@@ -416,3 +418,32 @@ def test_a_damper_on_a_clamped_base(undamped: ow.Turbine, element: Element) -> N
     record = chain.record(chain.sections(cuts), row, state.q, state.v, state.a)
     by_joints = section_loads(equations, cuts, 0.0, state.q, state.v, state.a)
     assert relative_difference(record.section_load[0], by_joints) < 1e-11
+
+
+def test_overview_names_the_dampers(undamped: ow.Turbine) -> None:
+    """Their tuning however it was given, and their mass in that above the mudline."""
+    turbine = several(undamped.model_copy(update={"soil": Soil()}))
+    bare, found = (overview(one) for one in (with_dampers(turbine), turbine))
+    assert found.mass_above_mudline_kg - bare.mass_above_mudline_kg == pytest.approx(9e5)
+    guide = next(one for one in found.tuned_mass_dampers if one.name == "guide")
+    assert guide.frequency_hz == pytest.approx(np.sqrt(8e5 / 3e5) / (2 * np.pi), rel=1e-12)
+    assert guide.damping_ratio == pytest.approx(2e4 / (2 * np.sqrt(8e5 * 3e5)), rel=1e-12)
+    rows = dict(dict(found.tables())["Masses"])
+    assert rows["middle"] == "200,000 kg, z +20.00 m, slides side-side at 0.25 Hz, 10 % of critical"
+    assert "middle" not in dict(dict(bare.tables())["Masses"])
+    assert found.frequencies_hz["clamped, dry"].keys() == bare.frequencies_hz["clamped, dry"].keys()
+
+
+def test_a_mode_that_moves_nothing_else(undamped: ow.Turbine) -> None:
+    """That of a damper on a clamped base: its own frequency, an axis at rest, and a picture."""
+    own = damper("a", undamped.site.mudline, "fore_aft", frequency_hz=0.15, damping_ratio=0.2)
+    system = ow.build(with_dampers(undamped, own), "clamped", elements=5)
+    result = ow.modes(system, 3)
+    assert result.label[0] == "TMD1"
+    assert result.frequency_hz[0] == pytest.approx(0.15, rel=1e-9)
+    assert result.damping_ratio[0] == pytest.approx(0.2, rel=1e-9)
+    assert np.abs(result.mass_normalised[0]).max() < 1e-9
+    motion = mode_motion(system, result, "TMD1")
+    assert np.all(np.isfinite(motion.share))
+    height = system.chain.top - system.chain.base
+    assert np.abs(motion.sliding[:, 0, 0, 3]).max() == pytest.approx(PEAK_SHARE * height, rel=1e-6)

@@ -129,9 +129,10 @@ def modes(system: System, n: int = 8, about: StaticResult | None = None) -> Moda
     for i in range(n):
         shown = shape[i, :, _SHOWN[family[i]]]
         at = above_mudline[np.argmax(np.abs(shown[above_mudline]))]
-        normalised[i] = shape[i] * np.sign(shown[at])
-        vectors[:, i] *= np.sign(shown[at])
-        unit[i] = shape[i] / shown[at]
+        size = float(shown[at]) or 1.0  # a damper on a clamped base moves nothing else
+        normalised[i] = shape[i] * np.sign(size)
+        vectors[:, i] *= np.sign(size)
+        unit[i] = shape[i] / size
         peak[i] = _peak_height(height, np.abs(shown), int(at))
     mudline, top = system.turbine.site.mudline, system.chain.top
     return ModalResult(

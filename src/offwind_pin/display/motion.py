@@ -56,7 +56,10 @@ def mode_motion(system: System, result: ModalResult, label: str) -> ModeMotion:
     index = result.index(label)
     family = result.direction(label)
     amplitude = body_amplitude(result, label)
-    scale = _scale(system, result.mass_normalised[index], family, float(amplitude.max()))
+    largest = float(amplitude.max())
+    scale = np.inf  # of a damper on a clamped base, which moves nothing else
+    if largest > 0:
+        scale = _scale(system, result.mass_normalised[index], family, largest)
     slips = np.abs(result.vector[system.chain.axis_joints :, index])
     if slips.any():
         scale = min(scale, _widest(system) / float(slips.max()))
@@ -67,8 +70,8 @@ def mode_motion(system: System, result: ModalResult, label: str) -> ModeMotion:
         family=family,
         poses=np.array([body_poses(system, q) for q in swing]),
         sliding=np.array([sliding_mass_poses(system, q) for q in swing]),
-        share=amplitude / amplitude.max(),
-        peak=scale * float(amplitude.max()),
+        share=amplitude / (largest or 1.0),
+        peak=scale * largest,
     )
 
 
