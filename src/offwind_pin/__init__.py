@@ -55,6 +55,7 @@ from offwind_pin.solve.steps import AdaptiveStep, FixedStep
 from offwind_pin.turbines.definition import Turbine
 from offwind_pin.turbines.reader import load_turbine, shipped_turbines
 from offwind_pin.turbines.rotor_disc import rotor_disc
+from offwind_pin.turbines.tuned_mass import DampedAbsorber, den_hartog
 
 __all__ = [
     "Accelerations",
@@ -64,6 +65,7 @@ __all__ = [
     "CrossSpectra",
     "CurrentSum",
     "CurrentTable",
+    "DampedAbsorber",
     "DeflectionTarget",
     "ExtremeOperatingGust",
     "FixedStep",
@@ -112,6 +114,7 @@ __all__ = [
     "build",
     "condense",
     "cross_spectral_matrix",
+    "den_hartog",
     "equivalent_damping",
     "export_urdf",
     "free_decay",

@@ -77,7 +77,12 @@ def build_by_hand(system: ow.System, height: Sequence[float] | Array = ()) -> Ha
             lever = np.array([0.0, 0.0, piece.center - place])
             inertia = pin.Inertia(piece.mass, lever, piece.inertia())
             model.appendBodyToJoint(parent, inertia, pin.SE3.Identity())
+            last = high == chain.cut[k + 1]
+            for i, mass in enumerate(chain.sliding_mass):
+                if mass.body == k and low <= mass.height and (last or mass.height < high):
+                    carriers[i] = (parent, place)
 
+    carriers: dict[int, tuple[int, float]] = {}
     names = iter(chain.joint_name)
     for _ in range(chain.roots):
         own_joint(next(names), chain.base)
@@ -89,6 +94,12 @@ def build_by_hand(system: ow.System, height: Sequence[float] | Array = ()) -> Ha
     rna = pin.Inertia(chain.rna.mass, chain.rna.center_of_mass, chain.rna.inertia)
     bearing = pin.SE3(np.eye(3), np.array([0.0, 0.0, chain.top - place]))
     model.appendBodyToJoint(parent, rna, bearing)
+    for i, mass in enumerate(chain.sliding_mass):
+        parent, place = carriers[i]
+        for _ in mass.joints:
+            own_joint(next(names), mass.height)
+        point = pin.Inertia(mass.mass, np.zeros(3), np.zeros((3, 3)))
+        model.appendBodyToJoint(parent, point, pin.SE3.Identity())
     model.gravity.linear = np.array([0.0, 0.0, -turbine.site.gravity])
     return HandBuilt(model, cuts, own)
 

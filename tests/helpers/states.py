@@ -26,13 +26,24 @@ def random_state(system: ow.System, seed: int = 0, size: float = 0.1) -> State:
 
 
 def without_joint_springs(system: ow.System) -> ow.System:
-    """The same without the chain's own springs, which would hide every smaller term."""
-    return replace(system, joint_stiffness=np.zeros(system.nv))
+    """The same without the chain's own springs, which would hide every smaller term.
+
+    Tuned mass dampers keep theirs: nothing else holds them across the axis.
+    """
+    springs = system.joint_stiffness.copy()
+    springs[: system.chain.axis_joints] = 0.0
+    return replace(system, joint_stiffness=springs)
 
 
 def joint_kinds(system: ow.System) -> list[str]:
     """Of each joint, whether it is prismatic or revolute: p or r."""
     return [name[-2] for name in system.chain.joint_name]
+
+
+def joint_kinds_apart(system: ow.System) -> list[str]:
+    """The same with d for the joints of tuned mass dampers, whose forces are the smallest."""
+    names = system.chain.joint_name
+    return ["d" if name.startswith("zz") else name[-2] for name in names]
 
 
 def element_of(system: ow.System) -> Element:

@@ -4,6 +4,7 @@ import itertools
 from dataclasses import replace
 
 import pytest
+from helpers.dampers import several
 from helpers.soils import hysteretic, layered
 from helpers.states import State, random_state
 
@@ -13,8 +14,8 @@ from offwind_pin.turbines.depth_profile import DepthLine
 from offwind_pin.turbines.soil import LinearModulus
 
 FOUNDATIONS = ("clamped", "coupled_springs", "distributed_springs", "macro_element")
-GROUNDS = {"layered": layered, "hysteretic": hysteretic}
-"""Distributed springs in other grounds."""
+GROUNDS = {"layered": layered, "hysteretic": hysteretic, "dampers": several}
+"""Distributed springs in other grounds, or under a structure with tuned mass dampers."""
 ELEMENTS: tuple[Element, ...] = ("euler_bernoulli", "timoshenko")
 
 

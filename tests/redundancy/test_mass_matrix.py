@@ -32,14 +32,14 @@ def test_mass_is_the_slope_of_the_residual(any_system: ow.System, state: State) 
     assert relative_difference(equations.mass(state.q), np.array(columns).T) < 1e-9
 
 
-def test_added_mass_is_in_it(any_system: ow.System, undamped: ow.Turbine) -> None:
+def test_added_mass_is_in_it(any_system: ow.System) -> None:
     """Negative control: the dry mass matrix is not the wet one.
 
     The water over the wetted monopile weighs rho pi D^2/4 h = 1.956e6 kg; moved sideways as a whole
     it is added once.
     """
     element = element_of(any_system)
-    dry = ow.build(undamped, any_system.foundation.name, elements=7, element=element)
+    dry = ow.build(any_system.turbine, any_system.foundation.name, elements=7, element=element)
     rest = np.zeros(dry.nv)
     extra = any_system.equations().mass(rest) - dry.equations().mass(rest)
     water = 1025.0 * np.pi / 4 * 81.0 * 30.0

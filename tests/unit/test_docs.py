@@ -101,6 +101,28 @@ def test_layers_of_the_docs(written: Path) -> None:
         assert along(springs, ground) is not None
 
 
+def test_dampers_of_the_docs(written: Path) -> None:
+    """The first is Den Hartog's for the turbine above it, the second is tuned to no mode."""
+    path = written / "my_turbine.yaml"
+    bare = ow.load_turbine(path)
+    data = yaml.safe_load(path.read_text())
+    text = next(b for b in _blocks("docs/turbine_file.md", "yaml") if "tuned_mass" in b)
+    data |= yaml.safe_load(text)
+    path.write_text(yaml.safe_dump(data))
+    damped = ow.load_turbine(path)
+    first = ow.modes(ow.build(bare, "coupled_springs", ow.StillWater()), 2)
+    at = first.index("FA1")
+    modal_mass = 1 / first.mass_normalised[at, -1, 0] ** 2
+    nacelle = damped.tuned_mass_dampers[0]
+    best = ow.den_hartog(nacelle.mass / modal_mass)
+    assert nacelle.frequency == pytest.approx(
+        best.frequency_ratio * first.frequency_hz[at], rel=2e-3
+    )
+    assert nacelle.damping_ratio == pytest.approx(best.damping_ratio, rel=5e-3)
+    found = ow.modes(ow.build(damped, "coupled_springs", ow.StillWater()), 8)
+    assert {"FA1", "SS1", "TMD1", "TMD2"} <= set(found.label)
+
+
 def test_hydrodynamics_of_the_docs(written: Path) -> None:
     """All of it at once takes the place of the two coefficients, and makes the turbine slower."""
     path = written / "my_turbine.yaml"

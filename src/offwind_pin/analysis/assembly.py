@@ -21,7 +21,10 @@ def assemble(
     stiffness: Stiffness = "flexibility",
     element: Element = "euler_bernoulli",
 ) -> System:
-    """A system without structural damping; see :func:`build` for the arguments."""
+    """A system without structural damping, but with its tuned mass dampers.
+
+    See :func:`build` for the arguments.
+    """
     held = foundation.structure or turbine
     chain = build_chain(
         held,
@@ -33,6 +36,9 @@ def assemble(
     )
     model = build_model(held, chain)
     springs = np.zeros(model.nv)
-    springs[chain.roots :] = chain.joint_stiffness.ravel()
+    springs[chain.roots : chain.axis_joints] = chain.joint_stiffness.ravel()
     damping = np.zeros(model.nv)
+    of_joint = [mass for mass in chain.sliding_mass for _ in mass.joints]
+    springs[chain.axis_joints :] = [mass.stiffness for mass in of_joint]
+    damping[chain.axis_joints :] = [mass.damping for mass in of_joint]
     return System(held, foundation, chain, sea, model, springs, damping, {}, Scratch(model))

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
-
 from offwind_pin.analysis.assembly import assemble
 from offwind_pin.analysis.damping import StructuralDamping, calibrate_damping
 from offwind_pin.analysis.foundations import make_foundation
@@ -54,13 +52,16 @@ def build(
     if turbine.structural_damping is None:
         return system
     damping = structural_damping(turbine, element)
-    joints = np.zeros(system.nv)
-    joints[system.chain.roots :] = damping.of(system.chain).ravel()
+    joints = system.joint_damping.copy()
+    joints[system.chain.roots : system.chain.axis_joints] = damping.of(system.chain).ravel()
     return system.with_damping(joints, damping.achieved)
 
 
 def structural_damping(turbine: Turbine, element: Element = "euler_bernoulli") -> StructuralDamping:
-    """Damping factors of a turbine, calibrated on the foundation and in the water it names."""
+    """Damping factors of a turbine, calibrated on the foundation and in the water it names.
+
+    Tuned mass dampers are locked there: what is calibrated is the damping of the structure.
+    """
     calibration = turbine.structural_damping
     if calibration is None:
         raise InputError(
@@ -77,6 +78,7 @@ def structural_damping(turbine: Turbine, element: Element = "euler_bernoulli") -
             "Calibrate the structure's damping on clamped.",
         )
     sea = StillWater() if calibration.still_water else None
+    turbine = turbine.with_dampers_locked()
     held = make_foundation(turbine, calibration.foundation)
     undamped = assemble(turbine, held, sea, element=element)
     return calibrate_damping(undamped, calibration)

@@ -78,7 +78,7 @@ def calibrate_damping(undamped: System, calibration: DampingCalibration) -> Stru
 
 def _modal_ratios(system: System, result: ModalResult, index: list[int], damping: Array) -> Array:
     """(n,) ratio that joint dampers alone give the chosen modes."""
-    rates = result.vector[system.chain.roots :, index]
+    rates = result.vector[system.chain.roots : system.chain.axis_joints, index]
     omega = 2 * np.pi * result.frequency_hz[index]
     return np.sum(damping[:, None] * rates**2, axis=0) / (2 * omega)
 

@@ -14,7 +14,10 @@ from offwind_pin.solve.eigen import natural_modes
 from offwind_pin.turbines.base import Array
 
 FAMILIES = {"FA": "fore-aft", "SS": "side-side", "T": "torsion", "V": "vertical"}
+_DAMPERS = {"TMD": "tuned mass damper"}
 _FAMILY_OF_JOINT = {"px": "FA", "ry": "FA", "py": "SS", "rx": "SS", "rz": "T", "pz": "V"}
+_MOSTLY = 0.5
+"""Share of the potential energy in springs of tuned mass dampers that makes a mode theirs."""
 _ORDINALS = {1: "first", 2: "second", 3: "third", 4: "fourth", 5: "fifth", 6: "sixth"}
 _EQUAL = 1e-6
 """Relative difference of squared frequencies below which two modes are one pair."""
@@ -29,8 +32,12 @@ class ModalResult:
     ----------
     frequency_hz : (n,) undamped natural frequencies
     damping_ratio : (n,) phi' D phi / (2 omega), of critical; exact for light damping
-    label : n labels FA1, SS1, T1, V1, ... numbered by frequency within each family
-    participation : (n, 4) share of the potential energy in FA, SS, T, V
+    label : n labels FA1, SS1, T1, V1, ... numbered by frequency within each family, the modes of
+        tuned mass dampers left out: these are TMD1, TMD2, ..., in each plane as many as dampers
+        slide in it, with the largest share of the potential energy in their springs, half or more
+    participation : (n, 4) share of the potential energy in FA, SS, T, V, a damper's springs in the
+        plane that they act in
+    damper_share : (n,) share of the potential energy in the springs of tuned mass dampers
     height : (m,) heights of the element boundaries in m
     shape : (n, m, 6) displacements (m) and rotations (rad) of the axis, unit peak in the mode's own
         direction (translation, or rotation about z for torsion), positive there
@@ -43,6 +50,7 @@ class ModalResult:
     damping_ratio: Array
     label: list[str]
     participation: Array
+    damper_share: Array
     height: Array
     shape: Array
     mass_normalised: Array
@@ -62,9 +70,13 @@ class ModalResult:
             )
         return self.label.index(label)
 
+    def direction(self, label: str) -> str:
+        """FA, SS, T or V: how the axis moves in a mode, one of tuned mass dampers as well."""
+        return list(FAMILIES)[int(np.argmax(self.participation[self.index(label)]))]
+
 
 def mode_family(label: str) -> str:
-    """FA, SS, T or V."""
+    """FA, SS, T, V or TMD."""
     return label.rstrip("0123456789")
 
 
@@ -72,7 +84,7 @@ def mode_name(label: str) -> str:
     """A label in words: ``FA2`` is "second fore-aft"."""
     family = mode_family(label)
     order = int(label.removeprefix(family))
-    return f"{_ORDINALS.get(order, f'{order}th')} {FAMILIES[family]}"
+    return f"{_ORDINALS.get(order, f'{order}th')} {(FAMILIES | _DAMPERS)[family]}"
 
 
 def modes(system: System, n: int = 8, about: StaticResult | None = None) -> ModalResult:
@@ -97,13 +109,17 @@ def modes(system: System, n: int = 8, about: StaticResult | None = None) -> Moda
     rest = np.zeros(system.nv)
     equations = system.equations(state.loads, np.inf, state.memory)
     stiffness, damping = equations.tangents(0.0, state.q, rest)
-    # One mode more than asked for, so that no pair of equal frequency is cut in two.
-    found = natural_modes(stiffness, equations.mass(state.q), min(n + 1, system.nv))
-    vectors = _separate_planes(system, stiffness, *found)[:, :n]
+    # One mode more than asked for, so that no pair of equal frequency is cut in two; and more where
+    # dampers split modes, so that labels do not depend on how many are asked for.
+    count = n + 1 + 2 * (system.nv - system.chain.axis_joints)
+    found = natural_modes(stiffness, equations.mass(state.q), min(count, system.nv))
+    vectors = _separate_planes(system, stiffness, *found)
+    participation = _participation(system, stiffness, vectors)
+    share = _damper_share(system, stiffness, vectors)
+    label, family = (part[:n] for part in _labels(participation, share, _sliding(system)))
+    vectors = vectors[:, :n]
     omega = np.sqrt(found[0][:n])
     dissipation = np.sum(vectors * (damping @ vectors), axis=0)
-    participation = _participation(system, stiffness, vectors)
-    label, family = _labels(participation)
     height = system.chain.boundary
     shape = np.array([_axis_shape(equations, state.q, vector, height) for vector in vectors.T])
     peak = np.empty(n)
@@ -113,16 +129,18 @@ def modes(system: System, n: int = 8, about: StaticResult | None = None) -> Moda
     for i in range(n):
         shown = shape[i, :, _SHOWN[family[i]]]
         at = above_mudline[np.argmax(np.abs(shown[above_mudline]))]
-        normalised[i] = shape[i] * np.sign(shown[at])
-        vectors[:, i] *= np.sign(shown[at])
-        unit[i] = shape[i] / shown[at]
+        size = float(shown[at]) or 1.0  # a damper on a clamped base moves nothing else
+        normalised[i] = shape[i] * np.sign(size)
+        vectors[:, i] *= np.sign(size)
+        unit[i] = shape[i] / size
         peak[i] = _peak_height(height, np.abs(shown), int(at))
     mudline, top = system.turbine.site.mudline, system.chain.top
     return ModalResult(
         frequency_hz=omega / (2 * np.pi),
         damping_ratio=dissipation / (2 * omega),
         label=label,
-        participation=participation,
+        participation=participation[:n],
+        damper_share=share[:n],
         height=height,
         shape=unit,
         mass_normalised=normalised,
@@ -137,6 +155,14 @@ def _participation(system: System, stiffness: Array, vectors: Array) -> Array:
     kind = _family_of_joints(system)
     energy = np.array([work[kind == family].sum(axis=0) for family in FAMILIES]).T
     return energy / energy.sum(axis=1, keepdims=True)
+
+
+def _damper_share(system: System, stiffness: Array, vectors: Array) -> Array:
+    """(n,) share of the tuned mass dampers' springs in the potential energy of each mode."""
+    work = vectors * (stiffness @ vectors)
+    springs = system.joint_stiffness[system.chain.axis_joints :, None]
+    stored = np.sum(springs * vectors[system.chain.axis_joints :] ** 2, axis=0)
+    return np.asarray(stored / work.sum(axis=0))
 
 
 def _separate_planes(system: System, stiffness: Array, squares: Array, vectors: Array) -> Array:
@@ -159,10 +185,25 @@ def _family_of_joints(system: System) -> np.ndarray[tuple[int], np.dtype[np.str_
     return np.array([_FAMILY_OF_JOINT[name[-2:]] for name in system.chain.joint_name])
 
 
-def _labels(participation: Array) -> tuple[list[str], list[str]]:
+def _sliding(system: System) -> dict[str, int]:
+    """How many tuned mass dampers slide in the plane of each family."""
+    joints = _family_of_joints(system)[system.chain.axis_joints :].tolist()
+    return {family: joints.count(family) for family in FAMILIES}
+
+
+def _labels(
+    participation: Array, damper_share: Array, sliding: dict[str, int]
+) -> tuple[list[str], list[str]]:
+    """Labels, and the families in whose direction the axis moves."""
     families = list(FAMILIES)
     family = [families[i] for i in np.argmax(participation, axis=1)]
-    label = [f"{name}{family[: i + 1].count(name)}" for i, name in enumerate(family)]
+    mode_of = list(family)
+    for name, count in sliding.items():
+        theirs = [i for i in np.argsort(-damper_share, kind="stable") if family[i] == name]
+        for i in theirs[:count]:
+            if damper_share[i] >= _MOSTLY:
+                mode_of[i] = "TMD"
+    label = [f"{name}{mode_of[: i + 1].count(name)}" for i, name in enumerate(mode_of)]
     return label, family
 
 

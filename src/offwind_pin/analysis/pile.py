@@ -50,6 +50,7 @@ def pile_only(turbine: Turbine, stick_up: float = 0.0) -> Turbine:
         update={
             "members": tuple(_below(m, head) for m in turbine.members if m.bottom < head),
             "point_masses": tuple(mass for mass in turbine.point_masses if mass.z < head),
+            "tuned_mass_dampers": tuple(d for d in turbine.tuned_mass_dampers if d.z < head),
             "rna": _NOTHING,
             "structural_damping": None,
         }
@@ -151,6 +152,7 @@ def pile_part(system: System) -> System:
         joint_stiffness=chain.joint_stiffness[:elements],
         body=(*chain.body[:elements], head),
         rna=lump_rna(turbine.rna),
+        sliding_mass=(),
     )
     model = build_model(turbine, part)
     return replace(

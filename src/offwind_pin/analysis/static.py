@@ -159,8 +159,7 @@ def load_scale(system: System) -> float:
     The weight of everything, on an arm of a hundredth of the structure's height.
     """
     chain = system.chain
-    mass = chain.rna.mass + sum(body.mass for body in chain.body)
-    return system.turbine.site.gravity * mass * (chain.top - chain.base) / 100
+    return system.turbine.site.gravity * chain.mass * (chain.top - chain.base) / 100
 
 
 def _axis_rotation(chain: CompiledChain, height: Array) -> Array:

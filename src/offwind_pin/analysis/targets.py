@@ -10,7 +10,7 @@ from typing import Protocol
 import numpy as np
 
 from offwind_pin.analysis.build import build
-from offwind_pin.analysis.modal import ModalResult, mode_family, modes
+from offwind_pin.analysis.modal import ModalResult, modes
 from offwind_pin.analysis.static import StaticResult, static
 from offwind_pin.dynamics.sea import Sea
 from offwind_pin.dynamics.system import System
@@ -184,7 +184,7 @@ class ShapeTarget:
 
     def found(self, responses: Responses) -> Array:
         result = responses.modes
-        shape = result.shape[result.index(self.label), :, _SHOWN[mode_family(self.label)]]
+        shape = result.shape[result.index(self.label), :, _SHOWN[result.direction(self.label)]]
         at = np.interp(self.height, result.height, shape)
         return at * float(at @ self.wanted) / float(at @ at)
 

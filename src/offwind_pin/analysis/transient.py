@@ -100,9 +100,10 @@ def simulate(
     -------
     Dataset with ``displacement``, ``acceleration``, ``section_force`` and ``section_moment`` over
     time and height, the mudline and tower-top channels, the applied load, the waves, the ground's
-    motion in an earthquake, the ledger of energies, the solver's own account, and what a picture
-    needs (:mod:`offwind_pin.analysis.scenery`); see ``attrs`` for versions, seeds and settings.
-    With a ``directory`` it reads from the file there, channel by channel as they are asked for.
+    motion in an earthquake, the displacements of tuned mass dampers, the ledger of energies, the
+    solver's own account, and what a picture needs (:mod:`offwind_pin.analysis.scenery`); see
+    ``attrs`` for versions, seeds and settings. With a ``directory`` it reads from the file there,
+    channel by channel as they are asked for.
 
     Raises
     ------
@@ -156,7 +157,9 @@ def simulate(
         attributes,
         scenery(system),
         _ground_levels(system, ground_motion),
+        {mass.name: mass.travel for mass in system.chain.sliding_mass},
     )
+    cautioned: set[str] = set()
     if len(store) == 0:
         state, records = first_record(chain, sections, state)
         store.append(_block(chain, state, records))
@@ -169,6 +172,7 @@ def simulate(
             times = interval * np.arange(done + 1, until + 1, dtype=float)
             state, records = method.cross(chain, sections, state, times)
             store.append(_block(chain, state, records))
+            _caution_of_travel(system, records, cautioned)
             done = until
             if progress is not None:
                 progress(state.time)
@@ -192,6 +196,23 @@ def simulate(
     if isinstance(store, FolderStore):
         store.remove()
     return data
+
+
+def _caution_of_travel(system: System, records: Records, cautioned: set[str]) -> None:
+    """Say once of each tuned mass damper that it goes further than it has room for."""
+    for d, mass in enumerate(system.chain.sliding_mass):
+        way = np.linalg.norm(records["slip"][:, d], axis=1)
+        if mass.name not in cautioned and np.any(way > mass.travel):
+            cautioned.add(mass.name)
+            first = int(np.argmax(way > mass.travel))
+            _log.warning(
+                "tuned mass damper %s slides %.3g m at t = %.6g s; it has room for %.3g m, and no "
+                "stop is modelled",
+                mass.name,
+                way[first],
+                records["time"][first],
+                mass.travel,
+            )
 
 
 def _outputs_per_block(method: Integrator, interval: float) -> int:

@@ -17,6 +17,7 @@ def export_urdf(system: System, out: Path) -> list[Path]:
             temporary.write_bytes(content)
     urdf, sidecar = out / f"{turbine.name}.urdf", out / f"{turbine.name}.json"
     write_text(urdf, write_urdf(turbine, chain))
-    damping = system.joint_damping[chain.roots :].reshape(chain.joint_stiffness.shape)
+    of_nodes = system.joint_damping[chain.roots : chain.axis_joints]
+    damping = of_nodes.reshape(chain.joint_stiffness.shape)
     write_json(sidecar, write_sidecar(turbine, chain, damping, system.foundation.describe()))
     return [urdf, sidecar]

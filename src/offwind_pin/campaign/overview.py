@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -12,6 +13,7 @@ from offwind_pin.dynamics.sea import StillWater
 from offwind_pin.structure.section import lump
 from offwind_pin.turbines.definition import Member, Turbine
 from offwind_pin.turbines.rna import lump_rna
+from offwind_pin.turbines.tuned_mass import TunedMassDamper
 
 _SHOWN_MODES = ("FA1", "SS1", "FA2", "SS2", "T1")
 
@@ -31,6 +33,18 @@ class MemberFacts:
 
 
 @dataclass(frozen=True)
+class DamperFacts:
+    """Place (m), mass (kg) and tuning of one tuned mass damper."""
+
+    name: str
+    z_m: float
+    mass_kg: float
+    direction: str
+    frequency_hz: float
+    damping_ratio: float
+
+
+@dataclass(frozen=True)
 class Overview:
     """Masses, lengths and frequencies of a turbine; frequencies in Hz by foundation and label."""
 
@@ -44,6 +58,7 @@ class Overview:
     members: list[MemberFacts]
     rna_mass_kg: float
     rna_center_of_mass_m: list[float]
+    tuned_mass_dampers: list[DamperFacts]
     mass_above_mudline_kg: float
     frequencies_hz: dict[str, dict[str, float]]
     surrogate: str | None
@@ -71,6 +86,15 @@ class Overview:
         masses.append(
             ("rotor-nacelle", f"{self.rna_mass_kg:,.0f} kg, centre {x:.3f}, {y:.3f}, {z:.3f} m")
         )
+        masses += [
+            (
+                damper.name,
+                f"{damper.mass_kg:,.0f} kg, z {damper.z_m:+.2f} m, slides "
+                f"{damper.direction.replace('_', '-')} at {damper.frequency_hz:.4g} Hz, "
+                f"{100 * damper.damping_ratio:.3g} % of critical",
+            )
+            for damper in self.tuned_mass_dampers
+        ]
         masses.append(("above the mudline", f"{self.mass_above_mudline_kg:,.0f} kg"))
         frequencies = [
             (case, ", ".join(f"{label} {value:.4f}" for label, value in found.items()))
@@ -99,9 +123,24 @@ def overview(turbine: Turbine) -> Overview:
         members=[_member_facts(turbine, member) for member in turbine.members],
         rna_mass_kg=rna.mass,
         rna_center_of_mass_m=rna.center_of_mass.tolist(),
-        mass_above_mudline_kg=lump(turbine, mudline, turbine.yaw_bearing).mass + rna.mass,
+        tuned_mass_dampers=[_damper_facts(damper) for damper in turbine.tuned_mass_dampers],
+        mass_above_mudline_kg=lump(turbine, mudline, turbine.yaw_bearing).mass
+        + rna.mass
+        + sum(damper.mass for damper in turbine.tuned_mass_dampers),
         frequencies_hz=_frequencies(turbine),
         surrogate=springs.surrogate if springs else None,
+    )
+
+
+def _damper_facts(damper: TunedMassDamper) -> DamperFacts:
+    omega = math.sqrt(damper.stiffness / damper.mass)
+    return DamperFacts(
+        name=damper.name,
+        z_m=damper.z,
+        mass_kg=damper.mass,
+        direction={"both": "both ways"}.get(damper.direction, damper.direction),
+        frequency_hz=omega / (2 * math.pi),
+        damping_ratio=damper.damping / (2 * damper.mass * omega),
     )
 
 
@@ -125,7 +164,8 @@ def _frequencies(turbine: Turbine) -> dict[str, dict[str, float]]:
     for foundation in described_foundations(turbine):
         sea = None if foundation == "clamped" else StillWater()
         system = build(turbine, foundation, sea)
-        result = modes(system, min(8, system.nv))
+        sliding = system.nv - system.chain.axis_joints
+        result = modes(system, min(8 + sliding, system.nv))
         water = "in still water" if sea else "dry"
         found[f"{foundation}, {water}"] = {
             label: float(result.frequency_hz[result.index(label)])

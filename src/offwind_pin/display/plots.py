@@ -69,11 +69,12 @@ def mode_shapes(modes: ModalResult, mudline: float, *, water: float | None = 0.0
 
     mudline, water : heights in m of the ground and of the mean surface, None for no water
     """
-    families = [name for name in FAMILIES if any(_family(label) == name for label in modes.label)]
+    direction = [modes.direction(label) for label in modes.label]
+    families = [name for name in FAMILIES if name in direction]
     figure = Figure(figsize=(max(5.0, FULL_WIDTH * len(families) / 3), 5.2))
     panels = figure.subplots(1, len(families), sharey=True, squeeze=False)[0]
     for axes, family in zip(panels, families, strict=True):
-        members = [i for i, label in enumerate(modes.label) if _family(label) == family]
+        members = [i for i, name in enumerate(direction) if name == family]
         _shapes_of_family(axes, modes, members[:_MODES_PER_FAMILY], _SHOWN_COMPONENT[family])
         axes.set_title(FAMILIES[family].capitalize(), pad=8)
         what = "rotation about z" if family == "T" else "displacement"
@@ -97,10 +98,6 @@ def _shapes_of_family(axes: Axes, modes: ModalResult, members: list[int], compon
         axes.plot(shape[peak], modes.height[peak], "o", ms=5, color=color, zorder=4)
     axes.set_ylim(low, high)
     axes.legend(loc="upper left", bbox_to_anchor=(-0.02, -0.14), handlelength=1.3, borderaxespad=0)
-
-
-def _family(label: str) -> str:
-    return label.rstrip("0123456789")
 
 
 @styled

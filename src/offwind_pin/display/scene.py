@@ -12,7 +12,15 @@ from offwind_pin.display.motion import FRAMES, ModeMotion
 from offwind_pin.display.recorder import meshcat_animation, meshcat_geometry
 from offwind_pin.display.springs import Spring, foundation_springs, soil_springs, zigzag
 from offwind_pin.dynamics.system import System
-from offwind_pin.structure.meshes import Mesh, body_meshes, box, circle, disc, loft
+from offwind_pin.structure.meshes import (
+    Mesh,
+    body_meshes,
+    box,
+    circle,
+    damper_disc,
+    disc,
+    loft,
+)
 from offwind_pin.structure.rotor import rna_meshes
 from offwind_pin.structure.section import frusta, outer_diameter
 from offwind_pin.turbines.base import Array
@@ -24,6 +32,7 @@ CYCLE = 4.0
 MUDLINE_COLOUR, WATER_COLOUR, SPRING_COLOUR = 0xA07C4B, 0x3D8FD1, 0x46505A
 AXIS_COLOUR = 0x9AA5B1
 RNA_COLOUR, _BLOCK_COLOUR, _STRIPE_COLOUR = 0xE9ECEF, 0x5A5F66, 0x20242A
+_DAMPER_COLOUR = 0xBF3A2B
 _MOTION_PLANE = {"SS": np.array([0.0, 1.0, 0.0])}
 _ALONG_X = np.array([1.0, 0.0, 0.0])
 
@@ -40,7 +49,9 @@ def draw_mode(view: Any, system: System, motion: ModeMotion) -> None:
     draw_bodies(view, system, motion)
     draw_site(view, system)
     draw_springs(view, system, springs)
+    draw_dampers(view, system, motion)
     clips = _body_clips(view, system, motion) | _spring_clips(view, springs, motion)
+    clips |= _damper_clips(view, system, motion)
     view.set_animation(meshcat_animation.Animation(clips), repetitions=np.inf)
 
 
@@ -65,6 +76,16 @@ def draw_bodies(view: Any, system: System, motion: ModeMotion) -> None:
     diameter = float(outer_diameter(system.turbine, np.array([chain.top]))[0])
     for name, mesh in rna_meshes(system.turbine.rna, diameter).items():
         set_mesh(rna[name], mesh, RNA_COLOUR)
+
+
+def draw_dampers(view: Any, system: System, motion: ModeMotion) -> None:
+    """A disc for each tuned mass damper, wider than the structure."""
+    for d, mass in enumerate(system.chain.sliding_mass):
+        radius, thickness = damper_disc(system.turbine, mass)
+        ends = [circle(radius, -thickness / 2), circle(radius, thickness / 2)]
+        part = view["dampers"][mass.name]
+        set_mesh(part, loft(np.array(ends)), _DAMPER_COLOUR)
+        part.set_transform(motion.sliding[0, d])
 
 
 def draw_site(view: Any, system: System) -> None:
@@ -110,6 +131,17 @@ def _body_clips(view: Any, system: System, motion: ModeMotion) -> dict[Any, Any]
     for k, name in enumerate(system.chain.body_name):
         pose = motion.poses[:, k]
         clips[view["turbine"][name].path] = _clip(
+            position=pose[:, :3, 3], quaternion=_quaternion(pose[:, :3, :3])
+        )
+    return clips
+
+
+def _damper_clips(view: Any, system: System, motion: ModeMotion) -> dict[Any, Any]:
+    """Animation of each tuned mass damper, by its path."""
+    clips = {}
+    for d, mass in enumerate(system.chain.sliding_mass):
+        pose = motion.sliding[:, d]
+        clips[view["dampers"][mass.name].path] = _clip(
             position=pose[:, :3, 3], quaternion=_quaternion(pose[:, :3, :3])
         )
     return clips

@@ -84,7 +84,7 @@ def significant_digits(value: float) -> int:
 
 def is_mode(name: str) -> bool:
     """Whether a name is a mode's label."""
-    return re.fullmatch(rf"({'|'.join(FAMILIES)})[1-9]\d*", name) is not None
+    return re.fullmatch(rf"({'|'.join((*FAMILIES, 'TMD'))})[1-9]\d*", name) is not None
 
 
 def relative_difference(ours: float, reference: float) -> float | None:

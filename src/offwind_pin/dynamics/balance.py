@@ -16,6 +16,7 @@ from offwind_pin.dynamics.forward import (
     row_of,
     scale,
 )
+from offwind_pin.dynamics.tuned_mass import balance_sliders, load_carriers, move_sliders
 from offwind_pin.turbines.base import Array
 
 
@@ -26,6 +27,8 @@ def balance(s: ChainArrays, row: Array, q: Array, v: Array, a: Array) -> Array:
     row : numbers of the loads that depend on time alone
     """
     move(s, row, q, v, a)
+    if len(s.slider_body) > 0:
+        move_sliders(s, q, v, a)
     move_points(s, row)
     evaluate_loads(s, row)
     collect_wrenches(s)
@@ -38,6 +41,8 @@ def balance(s: ChainArrays, row: Array, q: Array, v: Array, a: Array) -> Array:
                 work += s.joint[dof, j] * s.wrench[k, j]
             s.residual[dof] = s.stiffness[dof] * q[dof] + s.damping[dof] * v[dof] - work
             dof += 1
+    if len(s.slider_body) > 0:
+        balance_sliders(s, q, v)
     if s.roots > 0:
         add_root(s, q, v)
     return s.residual
@@ -87,6 +92,8 @@ def collect_wrenches(s: ChainArrays) -> None:
         for j in range(3):
             s.wrench[k, j] += force[j]
             s.wrench[k, 3 + j] += lever[j] + s.force[i, 3 + j]
+    if len(s.slider_body) > 0:
+        load_carriers(s)
     for k in range(last - 1, -1, -1):
         for j in range(6):
             s.wrench[k, j] += s.wrench[k + 1, j]

@@ -30,9 +30,10 @@ BASE = -1
 class ChainArrays(NamedTuple):
     """The chain, its restraint and its loads, and the state last computed.
 
-    N nodes of d joints (three, or five with shear), r root joints (six or none), nv = r + N d
-    degrees of freedom, P loaded points, L loads. Axes are those of the world, and wrenches and
-    spatial velocities are about the world's origin, linear part first.
+    N nodes of d joints (three, or five with shear), r root joints (six or none), D tuned mass
+    dampers of one or two joints, which come last; nv degrees of freedom, P loaded points, L loads.
+    Axes are those of the world, and wrenches and spatial velocities are about the world's origin,
+    linear part first.
     """
 
     # What does not change
@@ -45,6 +46,9 @@ class ChainArrays(NamedTuple):
     rna_mass: float
     rna_center: Array  # (3,) from the yaw bearing in m
     rna_inertia: Array  # (3, 3) about the centre of mass in kg m2
+    slider_body: NDArrayInt  # (D,) carrier of each tuned mass damper
+    slider: Array  # (D, 3) mass, offset along the carrier and undeformed height in m
+    slider_joint: NDArrayInt  # (D, 2) joint along x and y of the carrier, or -1
     gravity: float
     stiffness: Array  # (nv,) of the joint springs
     damping: Array  # (nv,) of the joint dampers
@@ -76,6 +80,9 @@ class ChainArrays(NamedTuple):
     acceleration: Array  # (N + 1, 3) of the frame's origin in m/s2
     spin_rate: Array  # (N + 1, 3) in rad/s2
     joint: Array  # (nv, 6) spatial velocity per unit velocity of each joint
+    slider_place: Array  # (D, 3) of the dampers' masses in m
+    slider_velocity: Array  # (D, 3) in m/s
+    slider_acceleration: Array  # (D, 3) in m/s2
     motion: Array  # (P, 21) motion of the loaded points
     force: Array  # (P, 6) forces and moments there
     lost: Array  # (L,) power that each load dissipates in W
@@ -93,6 +100,7 @@ class ChainArrays(NamedTuple):
     carry: Array  # (nv, 6) wrench that a joint passes down per unit of its right side
     follow: Array  # (nv, 6) how a joint follows the twist below it
     pivot: Array  # (N + 1, 6, 6) inverted pivot block of each node, the root first
+    slider_pivot: Array  # (D, 2, 2) inverted pivot block of each damper
     lack: Array  # (6,) right sides of a node, on the way down
     solution: Array  # (nv,)
 
@@ -112,6 +120,7 @@ def chain_arrays(
     """
     chain = system.chain
     n, nv = chain.elements, system.nv
+    sliding = chain.sliding_mass
     height = np.concatenate([np.zeros(0), *(load.height for load in loads)])
     carrier = chain.body_at(height)
     origin = chain.origin
@@ -132,6 +141,11 @@ def chain_arrays(
         rna_mass=float(chain.rna.mass),
         rna_center=np.array(chain.rna.center_of_mass, dtype=float),
         rna_inertia=np.array(chain.rna.inertia, dtype=float),
+        slider_body=np.array([mass.body for mass in sliding], dtype=np.intp),
+        slider=np.array(
+            [[mass.mass, mass.height - origin[mass.body], mass.height] for mass in sliding]
+        ).reshape(-1, 3),
+        slider_joint=_slider_joints(system),
         gravity=float(system.turbine.site.gravity),
         stiffness=system.joint_stiffness,
         damping=system.joint_damping,
@@ -164,6 +178,9 @@ def chain_arrays(
         acceleration=np.zeros((n + 1, 3)),
         spin_rate=np.zeros((n + 1, 3)),
         joint=np.zeros((nv, 6)),
+        slider_place=np.zeros((len(sliding), 3)),
+        slider_velocity=np.zeros((len(sliding), 3)),
+        slider_acceleration=np.zeros((len(sliding), 3)),
         motion=np.zeros((len(height), 21)),
         force=np.zeros((len(height), 6)),
         lost=np.zeros(len(loads)),
@@ -180,6 +197,20 @@ def chain_arrays(
         carry=np.zeros((nv, 6)),
         follow=np.zeros((nv, 6)),
         pivot=np.zeros((n + 1, 6, 6)),
+        slider_pivot=np.zeros((len(sliding), 2, 2)),
         lack=np.zeros(6),
         solution=np.zeros(nv),
     )
+
+
+def _slider_joints(system: System) -> NDArrayInt:
+    """(D, 2) place of each tuned mass damper's joints along x and y in q, or -1."""
+    names = system.chain.joint_name
+    rows = [
+        [
+            names.index(mass.joint_names[mass.joints.index(joint)]) if joint in mass.joints else -1
+            for joint in ("px", "py")
+        ]
+        for mass in system.chain.sliding_mass
+    ]
+    return np.array(rows, dtype=np.intp).reshape(-1, 2)

@@ -17,6 +17,13 @@ from offwind_pin.compiled import kernel
 from offwind_pin.dynamics.balance import body_needs, rna_needs
 from offwind_pin.dynamics.chain_arrays import ChainArrays
 from offwind_pin.dynamics.forward import Vector, axis_of, row_of
+from offwind_pin.dynamics.spatial import add_arm, add_inertia
+from offwind_pin.dynamics.tuned_mass import (
+    eliminate_sliders,
+    slide_alone,
+    slide_along,
+    unstable_sliders,
+)
 from offwind_pin.turbines.base import Array
 
 
@@ -30,6 +37,8 @@ def factorise(s: ChainArrays, row: Array, by_v: float, by_a: float) -> None:
     """
     body_matrices(s, by_a)
     load_matrices(s, row, by_v, by_a)
+    if len(s.slider_body) > 0:
+        eliminate_sliders(s, by_v, by_a)
     eliminate(s, by_v)
 
 
@@ -42,6 +51,8 @@ def correction(s: ChainArrays, right: Array) -> Array:
     for k in range(last, -1, -1):
         count = s.node_joints if k > 0 else s.roots
         first = s.roots + s.node_joints * (k - 1) if k > 0 else 0
+        if len(s.slider_body) > 0:
+            slide_alone(s, right, k, down)
         for i in range(count):
             lack = right[first + i]
             for j in range(6):
@@ -65,6 +76,8 @@ def correction(s: ChainArrays, right: Array) -> Array:
         for i in range(count):
             for j in range(6):
                 down[j] += s.joint_then[dof + i, j] * x[dof + i]
+        if len(s.slider_body) > 0:
+            slide_along(s, k, down)
         dof += count
     return x
 
@@ -81,7 +94,7 @@ def unstable_directions(s: ChainArrays) -> int:
         if count > 0:
             block = s.pivot[k, :count, :count].copy()
             negative += int(np.sum(np.linalg.eigvalsh((block + block.T) / 2) <= 0))
-    return negative
+    return negative + unstable_sliders(s)
 
 
 @kernel
@@ -195,36 +208,6 @@ def body_matrices(s: ChainArrays, by_a: float) -> None:
     inertia = turn @ s.rna_inertia @ turn.T
     add_inertia(s.articulated[last], by_a, s.rna_mass, place, inertia)
     add_arm(s.articulated[last], place, (-need[0], -need[1], -need[2]))
-
-
-@kernel
-def add_inertia(matrix: Array, factor: float, mass: float, place: Vector, inertia: Array) -> None:
-    """Add a rigid body's spatial inertia about the world's origin, times a factor."""
-    square = place[0] ** 2 + place[1] ** 2 + place[2] ** 2
-    for i in range(3):
-        j, k = (i + 1) % 3, (i + 2) % 3
-        matrix[i, i] += factor * mass
-        matrix[i, 3 + j] += factor * mass * place[k]
-        matrix[i, 3 + k] -= factor * mass * place[j]
-        matrix[3 + j, i] += factor * mass * place[k]
-        matrix[3 + k, i] -= factor * mass * place[j]
-        matrix[3 + i, 3 + i] += factor * mass * square
-        for m in range(3):
-            matrix[3 + i, 3 + m] += factor * (inertia[i, m] - mass * place[i] * place[m])
-
-
-@kernel
-def add_arm(matrix: Array, place: Vector, force: Vector) -> None:
-    """Take off the moment that a held force gains as its place moves, d(p x f) = dp x f."""
-    along = place[0] * force[0] + place[1] * force[1] + place[2] * force[2]
-    for i in range(3):
-        j, k = (i + 1) % 3, (i + 2) % 3
-        # -[f] by translation, [f][p] by rotation
-        matrix[3 + i, j] -= force[k]
-        matrix[3 + i, k] += force[j]
-        matrix[3 + i, 3 + i] += along
-        for m in range(3):
-            matrix[3 + i, 3 + m] -= place[i] * force[m]
 
 
 @kernel

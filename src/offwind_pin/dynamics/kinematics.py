@@ -94,7 +94,8 @@ class ChainMotion:
         rise = np.zeros((chain.elements + 1, 3))
         rise[0] = [0.0, 0.0, chain.base]
         rise[1:] = np.diff(chain.origin)[:, None] * self.axis[:-1]
-        slides = [i for i, name in enumerate(chain.joint_name) if name[-2] == "p"]
+        axis_joints = chain.joint_name[: chain.axis_joints]
+        slides = [i for i, name in enumerate(axis_joints) if name[-2] == "p"]
         np.add.at(rise, self.dof_body[slides], (jacobian[:3, slides] * q[slides]).T)
         self.origin = np.cumsum(rise, axis=0)
         self._through = np.cumsum(jacobian * v, axis=1)
@@ -200,13 +201,16 @@ class ChainMotion:
     def _wrench_above(
         self, points: AxisPoints, position: Array, force: Array, moment: Array
     ) -> Array:
-        """(N + 1, 6) sum of wrenches about the world's origin on each body and all above it."""
+        """(N + 2, 6) sum of wrenches about the world's origin on each body and all above it."""
         wrench = np.concatenate([force, np.cross(position, force) + moment], axis=1)
         return self._sums_above(points, wrench)
 
     def _sums_above(self, points: AxisPoints, values: Array) -> Array:
-        """(N + 1, ...) sums of the points' values on each body and all above it."""
-        total = np.zeros((self.chain.elements + 1, *values.shape[1:]))
+        """(N + 2, ...) sums of the points' values on each body and all above it.
+
+        The last row, of nothing, is for the joints of tuned mass dampers.
+        """
+        total = np.zeros((self.chain.elements + 2, *values.shape[1:]))
         np.add.at(total, points.body, values)
         return total[::-1].cumsum(axis=0)[::-1]
 
@@ -219,9 +223,13 @@ class ChainMotion:
 
 
 def dof_body(chain: Chain) -> NDArrayInt:
-    """(nv,) index of the lowest body that each joint moves."""
+    """(nv,) index of the lowest body that each joint moves.
+
+    The joints of tuned mass dampers move none: they count as above the last one, N + 1.
+    """
     nodes = np.repeat(np.arange(1, chain.elements + 1), len(chain.node_joints))
-    return np.concatenate([np.zeros(chain.roots, dtype=np.intp), nodes])
+    none = np.full(len(chain.joint_name) - chain.axis_joints, chain.elements + 1)
+    return np.concatenate([np.zeros(chain.roots, dtype=np.intp), nodes, none])
 
 
 def spatial_cross(a: Array, b: Array) -> Array:

@@ -33,6 +33,7 @@ class Cuts(NamedTuple):
     height: Array  # (m,) in m
     body: NDArrayInt  # (m,) that is cut
     offset: Array  # (m,) of the cut along it in m
+    end: Array  # (m,) height at which that body ends in m, beyond everything for the last one
     piece: Array  # (m, 4) mass, centre along the body, transverse and axial inertia
     first: NDArrayInt  # (m + 1,) where the points above each cut begin in the next array
     point: NDArrayInt  # loaded points of a cut's own body that lie above it
@@ -68,6 +69,7 @@ class RecorderArrays(NamedTuple):
     acceleration: Array  # (T, m, 3) in m/s2
     section_load: Array  # (T, m, 6) in N and N m
     imbalance: Array  # (T, g, 6) of the segments in N and N m
+    slip: Array  # (T, D, 2) of the tuned mass dampers along x and y of their carriers in m
     stored: Array  # (T, L + 4) energies that the state holds in J, see STATE_ENERGIES
     dissipated: Array  # (T, L + 2) in J
     worked: Array  # (T, L + 2) in J; see GROUND
@@ -88,6 +90,7 @@ def make_cuts(system: System, s: ChainArrays, height: Array) -> Cuts:
         height=height,
         body=body,
         offset=height - chain.origin[body],
+        end=np.append(chain.joint_height, np.inf)[body],
         piece=_pieces(system, body, height, ends),
         first=_beginnings(above),
         point=np.concatenate([np.zeros(0, dtype=np.intp), *above]),
@@ -105,7 +108,8 @@ def make_segments(
         inside = np.flatnonzero((edge[:-1] < high) & (edge[1:] > low))
         low_ends, high_ends = np.maximum(edge[inside], low), np.minimum(edge[inside + 1], high)
         bodies.append(inside)
-        pieces.append(_pieces(system, inside, low_ends, high_ends))
+        # A point mass at the yaw bearing lies above the cut there, as loads there do.
+        pieces.append(_pieces(system, inside, low_ends, high_ends, with_end=False))
         points.append(np.flatnonzero(_is_above(system, s, low) & ~_is_above(system, s, high)))
     at = [[int(np.argmin(np.abs(cuts.height - z))) for z in pair] for pair in ends]
     none = np.zeros(0, dtype=np.intp)
@@ -128,11 +132,13 @@ def _is_above(system: System, s: ChainArrays, height: float) -> NDArray[np.bool_
     return (s.point_height > height + 1e-9) | (s.point_height == system.chain.top)
 
 
-def _pieces(system: System, body: NDArrayInt, low: Array, high: Array) -> Array:
+def _pieces(
+    system: System, body: NDArrayInt, low: Array, high: Array, *, with_end: bool = True
+) -> Array:
     """(n, 4) mass, centre along the body, transverse and axial inertia of parts of bodies."""
     rows = []
     for k, bottom, top in zip(body, low, high, strict=True):
-        piece = lump(system.turbine, bottom, top)
+        piece = lump(system.turbine, bottom, top, with_end=with_end)
         center = piece.center - system.chain.origin[k]
         rows.append([piece.mass, center, piece.transverse, piece.axial])
     return np.array(rows).reshape(-1, 4)
@@ -166,6 +172,7 @@ def make_recorder(
         acceleration=np.zeros((records, m, 3)),
         section_load=np.zeros((records, m, 6)),
         imbalance=np.zeros((records, len(segments.cut), 6)),
+        slip=np.zeros((records, len(s.slider_body), 2)),
         stored=np.zeros((records, loads + len(STATE_ENERGIES))),
         dissipated=np.zeros((records, loads + 2)),
         worked=np.zeros((records, loads + 2)),

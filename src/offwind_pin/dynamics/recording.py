@@ -30,6 +30,7 @@ from offwind_pin.dynamics.recorder_arrays import (
     RecorderArrays,
 )
 from offwind_pin.dynamics.shaking import power_of_ground
+from offwind_pin.dynamics.tuned_mass import slider_energies, sliders_between, slips
 from offwind_pin.turbines.base import Array
 
 
@@ -84,6 +85,7 @@ def record(
     section_loads(s, r.cuts, r.section_load[i])
     imbalances(s, r, r.section_load[i], r.imbalance[i])
     store_energies(s, q, r.stored[i])
+    slips(s, q, r.slip[i])
     r.dissipated[i] = r.energy[0]
     r.worked[i] = r.energy[1]
     r.tally[1] += 1
@@ -113,6 +115,9 @@ def section_loads(s: ChainArrays, cuts: Cuts, result: Array) -> None:
             force = add(force, pull)
             own = (s.force[i, 3], s.force[i, 4], s.force[i, 5])
             moment = add(moment, add(cross(row_of(s.motion, i), pull), own))
+        if len(s.slider_body) > 0:
+            need, turn = sliders_between(s, cuts.height[m], cuts.end[m])
+            force, moment = subtract(force, need), subtract(moment, turn)
         moment = subtract(moment, cross(cut_place(s, cuts, m), force))
         for j in range(3):
             result[m, j], result[m, 3 + j] = force[j], moment[j]
@@ -145,6 +150,10 @@ def imbalances(s: ChainArrays, r: RecorderArrays, section_load: Array, result: A
             force = subtract(force, pull)
             turn = add(cross(subtract(row_of(s.motion, i), about), pull), own)
             moment = subtract(moment, turn)
+        if len(s.slider_body) > 0:
+            need, turn = sliders_between(s, r.cuts.height[low], r.cuts.height[high])
+            force = add(force, need)
+            moment = add(moment, subtract(turn, cross(about, need)))
         for j in range(3):
             result[n, j] = force[j]
             result[n, 3 + j] = moment[j] + section_load[low, 3 + j] - section_load[high, 3 + j]
@@ -181,6 +190,10 @@ def store_energies(s: ChainArrays, q: Array, result: Array) -> None:
     kinetic += s.rna_mass * dot(velocity, velocity) / 2
     kinetic += dot(spin, rna_inertia_times(s, spin)) / 2
     gravitational += s.rna_mass * s.gravity * (s.origin[last, 2] + arm[2] - height - center[2])
+    if len(s.slider_body) > 0:
+        of_motion, of_height = slider_energies(s)
+        kinetic += of_motion
+        gravitational += of_height
     for i in range(len(q)):
         elastic += s.stiffness[i] * q[i] ** 2 / 2
     result[0], result[1], result[2], result[3] = kinetic, gravitational, elastic, s.root_power[1]

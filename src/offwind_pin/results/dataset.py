@@ -39,6 +39,7 @@ class HistoryWriter:
     attributes : of the dataset
     constants : what does not change with time, by name: dimension, values, attributes
     levels : (D,) heights in m at which the ground's motion is recorded; none without an earthquake
+    dampers : travel in m of each tuned mass damper by its name
     """
 
     mudline: float
@@ -49,6 +50,7 @@ class HistoryWriter:
     attributes: dict[str, Any]
     constants: Mapping[str, tuple[str, Array, dict[str, str]]] = field(default_factory=dict)
     levels: Array = field(default_factory=lambda: np.zeros(0))
+    dampers: Mapping[str, float] = field(default_factory=dict)
 
     def write(self, store: BlockStore, status: str, directory: Path | str | None) -> xr.Dataset:
         """Dataset of all blocks; with a directory it stands in ``results.nc`` there.
@@ -177,6 +179,21 @@ class HistoryWriter:
                 {"long_name": "largest residual over the load scale", "units": "1"},
             ),
         }
+        if self.dampers:
+            channels["tuned_mass_displacement"] = (
+                ("time", "damper", "across"),
+                block["slip"],
+                {
+                    "long_name": "displacement of a tuned mass damper's mass against its carrier",
+                    "units": "m",
+                    "frame": "x and y of the body that carries it",
+                },
+            )
+            channels["tuned_mass_travel"] = (
+                ("damper",),
+                np.array(list(self.dampers.values())),
+                {"long_name": "displacement that a tuned mass damper has room for", "units": "m"},
+            )
         names = np.array([*HOLDERS, *self.loads])
         coordinates = {
             "time": ("time", block["time"], {"long_name": "simulated time", "units": "s"}),
@@ -192,6 +209,8 @@ class HistoryWriter:
             channels |= _ground_channels(block["ground_motion"])
             about = {"long_name": "height of the ground's recorded motion", "units": "m"}
             coordinates["level"] = ("level", self.levels, about)
+        if self.dampers:
+            coordinates |= {"damper": list(self.dampers), "across": ["x", "y"]}
         attributes = {
             "title": "offwind-pin time histories",
             **versions(),

@@ -26,6 +26,7 @@ from offwind_pin.structure.section import (
     shear_stiffness,
     torsional_stiffness,
 )
+from offwind_pin.structure.tuned_mass import SlidingMass, sliding_masses
 from offwind_pin.turbines.base import Array
 from offwind_pin.turbines.definition import Turbine
 from offwind_pin.turbines.rna import RigidBody, lump_rna
@@ -68,6 +69,7 @@ class Chain:
         of the prismatic ones
     body : N + 1 rigid bodies, heights of their centres counted as z
     rna : rotor-nacelle assembly, fixed to the last body; offsets from the yaw bearing
+    sliding_mass : tuned mass dampers in the order of their joints, which come last
     """
 
     base: float
@@ -81,6 +83,7 @@ class Chain:
     joint_stiffness: Array
     body: tuple[AxialBody, ...]
     rna: RigidBody
+    sliding_mass: tuple[SlidingMass, ...] = ()
 
     @property
     def elements(self) -> int:
@@ -90,6 +93,22 @@ class Chain:
     def roots(self) -> int:
         """Number of joints below the first element: six or none."""
         return len(ROOT_JOINTS) if self.free_root else 0
+
+    @property
+    def axis_joints(self) -> int:
+        """Number of joints of root and nodes, without those of tuned mass dampers."""
+        return self.roots + len(self.node_joints) * self.elements
+
+    @property
+    def node_joint_name(self) -> tuple[str, ...]:
+        """Names of the nodes' joints."""
+        return self.joint_name[self.roots : self.axis_joints]
+
+    @property
+    def mass(self) -> float:
+        """Of everything in kg."""
+        sliding = sum(mass.mass for mass in self.sliding_mass)
+        return self.rna.mass + sum(body.mass for body in self.body) + sliding
 
     @property
     def origin(self) -> Array:
@@ -104,7 +123,7 @@ class Chain:
     @property
     def body_name(self) -> list[str]:
         """Names of the N + 1 bodies, from the base upwards."""
-        first = self.joint_name[self.roots :: len(self.node_joints)]
+        first = self.node_joint_name[:: len(self.node_joints)]
         elements = [name.rsplit("_", 1)[0] for name in first]
         return ["base", *("_b".join(name.rsplit("_e", 1)) for name in elements)]
 
@@ -159,6 +178,7 @@ def build_chain(
     middle = (edges[:-1] + edges[1:]) / 2
     cuts = np.concatenate([[base], middle, [turbine.yaw_bearing]])
     root = [f"root_{joint}" for joint in ROOT_JOINTS] if free_root else []
+    sliding = sliding_masses(turbine, base, middle.tolist())
     return Chain(
         base=base,
         top=turbine.yaw_bearing,
@@ -169,11 +189,13 @@ def build_chain(
         joint_name=(
             *root,
             *(f"{name}_{joint}" for name in names for joint in NODE_JOINTS[element]),
+            *(joint for mass in sliding for joint in mass.joint_names),
         ),
         joint_height=middle,
         joint_stiffness=_joint_stiffness(turbine, edges, stiffness, NODE_JOINTS[element]),
         body=tuple(lump(turbine, low, high) for low, high in itertools.pairwise(cuts)),
         rna=lump_rna(turbine.rna),
+        sliding_mass=tuple(sliding),
     )
 
 

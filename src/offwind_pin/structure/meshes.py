@@ -9,12 +9,17 @@ import numpy as np
 
 from offwind_pin.structure.chain import Chain, NDArrayInt
 from offwind_pin.structure.frustum import Frustum
-from offwind_pin.structure.section import frusta
+from offwind_pin.structure.section import frusta, outer_diameter
+from offwind_pin.structure.tuned_mass import SlidingMass
 from offwind_pin.turbines.base import Array
 from offwind_pin.turbines.definition import Turbine
 
 FACETS = 32
 """Sides of what is round. Normals are smoothed around it, so that few suffice."""
+
+_DISC = (0.6, 0.2)
+"""Radius and thickness of the disc drawn for a tuned mass damper, over the structure's diameter
+there: it shows outside the wall."""
 
 
 @dataclass(frozen=True)
@@ -70,6 +75,12 @@ def body_meshes(turbine: Turbine, chain: Chain) -> dict[str, Mesh]:
             [hollow_frustum(base - chain.origin[k], shell) for base, shell in shells]
         )
     return result
+
+
+def damper_disc(turbine: Turbine, mass: SlidingMass) -> tuple[float, float]:
+    """Radius and thickness in m of the disc that stands for a tuned mass damper in pictures."""
+    diameter = float(outer_diameter(turbine, np.array([mass.height]))[0])
+    return _DISC[0] * diameter, _DISC[1] * diameter
 
 
 def loft(sections: Array, *, capped: bool = True) -> Mesh:

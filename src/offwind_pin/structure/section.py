@@ -89,15 +89,16 @@ def growth(turbine: Turbine, low: float, high: float) -> list[tuple[float, Frust
     return result
 
 
-def lump(turbine: Turbine, low: float, high: float) -> AxialBody:
+def lump(turbine: Turbine, low: float, high: float, *, with_end: bool = True) -> AxialBody:
     """Rigid body of everything between two heights, marine growth and point masses included.
 
-    A point mass counts where low <= z < high; one at the yaw bearing belongs to the last interval.
+    A point mass counts where low <= z < high; one at the yaw bearing belongs to the interval that
+    ends there, unless ``with_end`` is false.
     """
     parts = [frustum.lump(base) for base, frustum in frusta(turbine, low, high)]
     parts += [layer.lump(base) for base, layer in growth(turbine, low, high)]
     for mass in turbine.point_masses:
-        if low <= mass.z < high or mass.z == high == turbine.yaw_bearing:
+        if low <= mass.z < high or (with_end and mass.z == high == turbine.yaw_bearing):
             transverse = (mass.inertia[0] + mass.inertia[1]) / 2
             parts.append(AxialBody(mass.mass, mass.z, transverse, mass.inertia[2]))
     return AxialBody.combine(parts)

@@ -10,27 +10,28 @@ from typing import Any
 import numpy as np
 
 from offwind_pin.structure.chain import Chain
-from offwind_pin.structure.meshes import Mesh, body_meshes
+from offwind_pin.structure.meshes import Mesh, body_meshes, damper_disc
 from offwind_pin.structure.rotor import rna_meshes
 from offwind_pin.structure.section import outer_diameter
+from offwind_pin.structure.tuned_mass import SlidingMass
 from offwind_pin.turbines.base import Array, with_paths
 from offwind_pin.turbines.definition import Turbine
 
 _AXIS = {"x": "1 0 0", "y": "0 1 0", "z": "0 0 1"}
-_YELLOW, _WHITE = "0.93 0.77 0.20 1", "0.88 0.89 0.90 1"
+_YELLOW, _WHITE, _RED = "0.93 0.77 0.20 1", "0.88 0.89 0.90 1", "0.75 0.22 0.17 1"
 
 
 def write_urdf(turbine: Turbine, chain: Chain) -> str:
     """URDF text of a chain; every number with 17 significant digits.
 
     A node is three revolute joints in series (x, y, z), below them two prismatic ones (x, y) where
-    elements shear, with massless links between them. Each body
-    has one mesh of its frusta as visual, ``meshes/LINK.stl`` beside the file, and the rotor-nacelle
-    assembly one of nacelle, hub and blades (:func:`write_meshes`).
+    elements shear, with massless links between them. A tuned mass damper is a point mass on one or
+    two prismatic joints. Each body has one mesh of its frusta as visual, ``meshes/LINK.stl`` beside
+    the file, and the rotor-nacelle assembly one of nacelle, hub and blades (:func:`write_meshes`).
     """
     robot = ET.Element("robot", name=turbine.name)
     ET.SubElement(robot, "link", name="world")
-    _materials(robot)
+    _materials(robot, dampers=bool(chain.sliding_mass))
     parent, height = "world", 0.0
     links = chain.body_name
     if chain.free_root:
@@ -57,6 +58,8 @@ def write_urdf(turbine: Turbine, chain: Chain) -> str:
     rna = ET.SubElement(robot, "link", name="rna")
     _inertial(rna, chain.rna.mass, chain.rna.center_of_mass, chain.rna.inertia)
     _visual(rna, "rna", "tower_white")
+    for mass in chain.sliding_mass:
+        _sliding_mass(robot, turbine, chain, mass)
     ET.indent(robot)
     return (
         '<?xml version="1.0" encoding="utf-8"?>\n' + ET.tostring(robot, encoding="unicode") + "\n"
@@ -81,7 +84,7 @@ def write_sidecar(
 
     damping is (N, d) like the joint stiffness, in N m s/rad and N s/m.
     """
-    node_joints = chain.joint_name[chain.roots :]
+    node_joints = chain.node_joint_name
     return {
         "turbine": turbine.name,
         "definition_sha256": definition_hash(turbine),
@@ -107,17 +110,33 @@ def write_sidecar(
         ],
         "element_boundaries_z_m": chain.boundary.tolist(),
         "foundation": foundation,
+        **_sliding_masses(chain),
     }
 
 
+def _sliding_masses(chain: Chain) -> dict[str, Any]:
+    """Spring and damper of each joint of a tuned mass damper; no entry where there is none."""
+    dampers = {
+        joint: {"stiffness": mass.stiffness, "damping": mass.damping, "z_m": mass.height}
+        for mass in chain.sliding_mass
+        for joint in mass.joint_names
+    }
+    return {"tuned_mass_dampers": dampers} if dampers else {}
+
+
 def definition_hash(turbine: Turbine) -> str:
-    """SHA-256 of the definition's JSON, files in it by their contents and not by their names."""
+    """SHA-256 of the definition's JSON, files in it by their contents and not by their names.
+
+    A turbine without tuned mass dampers keeps the hash that it had before there were any.
+    """
     whole = with_paths(turbine, lambda file: Path(hashlib.sha256(file.read_bytes()).hexdigest()))
-    return hashlib.sha256(whole.model_dump_json().encode()).hexdigest()
+    left_out = None if turbine.tuned_mass_dampers else {"tuned_mass_dampers"}
+    return hashlib.sha256(whole.model_dump_json(exclude=left_out).encode()).hexdigest()
 
 
-def _materials(robot: ET.Element) -> None:
-    for name, rgba in (("tower_white", _WHITE), ("monopile_yellow", _YELLOW)):
+def _materials(robot: ET.Element, *, dampers: bool) -> None:
+    colours = {"tower_white": _WHITE, "monopile_yellow": _YELLOW}
+    for name, rgba in (colours | ({"damper_red": _RED} if dampers else {})).items():
         material = ET.SubElement(robot, "material", name=name)
         ET.SubElement(material, "color", rgba=rgba)
 
@@ -147,6 +166,23 @@ def _body(robot: ET.Element, chain: Chain, k: int) -> None:
     center = np.array([0.0, 0.0, body.center - chain.origin[k]])
     _inertial(link, body.mass, center, body.inertia())
     _visual(link, name, "tower_white" if name.startswith("tower") else "monopile_yellow")
+
+
+def _sliding_mass(robot: ET.Element, turbine: Turbine, chain: Chain, mass: SlidingMass) -> None:
+    """Prismatic joints of a tuned mass damper, and a point mass drawn as a disc."""
+    parent, rise = chain.body_name[mass.body], mass.height - chain.origin[mass.body]
+    for joint in mass.joint_names:
+        last = joint == mass.joint_names[-1]
+        child = f"zz_tmd_{mass.name}_mass" if last else f"{joint}_link"
+        _moving_joint(robot, joint, parent, child, rise)
+        parent, rise = child, 0.0
+        link = ET.SubElement(robot, "link", name=child)
+    _inertial(link, mass.mass, np.zeros(3), np.zeros((3, 3)))
+    visual = ET.SubElement(link, "visual")
+    radius, thickness = damper_disc(turbine, mass)
+    disc = {"radius": _text(radius), "length": _text(thickness)}
+    ET.SubElement(ET.SubElement(visual, "geometry"), "cylinder", disc)
+    ET.SubElement(visual, "material", name="damper_red")
 
 
 def _visual(link: ET.Element, name: str, colour: str) -> None:

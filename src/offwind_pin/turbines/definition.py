@@ -16,11 +16,14 @@ from offwind_pin.turbines.base import Definition, NonNegative, Number, Positive,
 from offwind_pin.turbines.hydrodynamics import Height, Hydrodynamics
 from offwind_pin.turbines.rotor_aerodynamics import GEOMETRY, Rotor
 from offwind_pin.turbines.soil import Soil
+from offwind_pin.turbines.tuned_mass import TunedMassDamper
 
 Angle = Annotated[Number, Field(ge=-30, le=30)]
 
 _KEPT_NAMES = {"base", "mono", "pile", "rna", "root", "world"}
 """Names that the chain gives to parts of its own."""
+_KEPT_BEGINNING = "zz"
+"""Of joints that must come last in the alphabet; see :mod:`offwind_pin.structure.tuned_mass`."""
 
 
 class Material(Definition):
@@ -227,6 +230,7 @@ class Turbine(Definition):
     materials: dict[str, Material]
     members: Annotated[tuple[Member, ...], Field(min_length=1)]
     point_masses: tuple[PointMass, ...] = ()
+    tuned_mass_dampers: tuple[TunedMassDamper, ...] = ()
     rna: Annotated[RigidBodyRNA | RotorNacelleRNA, Field(discriminator="kind")]
     rotor: Rotor | None = None
     hydrodynamics: Hydrodynamics
@@ -247,6 +251,12 @@ class Turbine(Definition):
                 f"members are named {', '.join(names)}; give them different names, and none of "
                 f"{', '.join(sorted(_KEPT_NAMES))}"
             )
+        for name in names:
+            if name.startswith(_KEPT_BEGINNING):
+                raise ValueError(
+                    f"member {name} begins with {_KEPT_BEGINNING}, as joints of tuned mass dampers "
+                    "do; give it another name"
+                )
         for lower, upper in zip(self.members, self.members[1:], strict=False):
             if upper.bottom != lower.top:
                 raise ValueError(
@@ -282,6 +292,31 @@ class Turbine(Definition):
                 f"rotor gives {', '.join(given)}, which rna gives already; keep radius_m at most"
             )
         return self
+
+    @model_validator(mode="after")
+    def _dampers_fit(self) -> Turbine:
+        names = [damper.name for damper in self.tuned_mass_dampers]
+        if len(set(names)) < len(names):
+            raise ValueError(
+                f"tuned mass dampers are named {', '.join(names)}; give them different names"
+            )
+        for damper in self.tuned_mass_dampers:
+            if not self.site.mudline <= damper.z <= self.yaw_bearing:
+                raise ValueError(
+                    f"tuned mass damper {damper.name} at z_m = {damper.z} is off the structure "
+                    f"above the mudline, which runs from {self.site.mudline} to "
+                    f"{self.yaw_bearing} m; hang it in there"
+                )
+        return self
+
+    def with_dampers_locked(self) -> Turbine:
+        """The same with each tuned mass damper as a point mass that cannot slide."""
+        locked = tuple(
+            PointMass(name=damper.name, z_m=damper.z, mass_kg=damper.mass)
+            for damper in self.tuned_mass_dampers
+        )
+        masses = (*self.point_masses, *locked)
+        return self.model_copy(update={"point_masses": masses, "tuned_mass_dampers": ()})
 
     @property
     def toe(self) -> float:
