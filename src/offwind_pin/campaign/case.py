@@ -43,11 +43,38 @@ class StaticAnalysis(Definition):
     settle: Annotated[Positive, Field(ge=10, le=1e5)] | None = Field(alias="settle_s", default=None)
 
 
+class Identification(Definition):
+    """A record of accelerations under white noise, and how modes are taken out of it.
+
+    duration : of the record; the damping ratio of a mode scatters by 1 / sqrt(2 pi zeta f T) of
+        itself at least
+    segment : of Welch's method
+    nodes : from the mudline to the yaw bearing
+    """
+
+    duration: Annotated[Positive, Field(ge=600, le=1e5)] = Field(alias="duration_s")
+    segment: Annotated[Positive, Field(ge=20)] = Field(alias="segment_s")
+    nodes: Annotated[int, Field(ge=3, le=60)] = 13
+
+    @model_validator(mode="after")
+    def _holds_segments(self) -> Identification:
+        if self.segment > self.duration / 4:
+            raise ValueError(
+                f"segment_s = {self.segment} is longer than a quarter of duration_s = "
+                f"{self.duration}; shorten it"
+            )
+        return self
+
+
 class ModalAnalysis(Definition):
-    """Natural modes about the static state under gravity."""
+    """Natural modes about the static state under gravity.
+
+    identify : whether the fore-aft modes are taken out of accelerations as well
+    """
 
     kind: Literal["modes"]
     count: Annotated[int, Field(ge=1, le=50)] = 8
+    identify: Identification | None = None
 
 
 class TransientAnalysis(Definition):

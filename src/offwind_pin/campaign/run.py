@@ -21,8 +21,13 @@ from offwind_pin.campaign.case import (
     TransientAnalysis,
 )
 from offwind_pin.campaign.earthquakes import Shaking
+from offwind_pin.campaign.identification import (
+    identified_variables,
+    identify,
+    summarise_identified,
+)
 from offwind_pin.campaign.output import check_writable
-from offwind_pin.campaign.settling import settle
+from offwind_pin.campaign.settling import settle, settling_variables, summarise_settling
 from offwind_pin.campaign.summaries import (
     moment_spectrum,
     summarise_damping,
@@ -33,6 +38,7 @@ from offwind_pin.campaign.summaries import (
 from offwind_pin.campaign.tower_top import generator, rotor_of, tower_top
 from offwind_pin.campaign.tower_top_loads import SyntheticTowerTopLoad
 from offwind_pin.display.earthquake_plots import EarthquakeDescription
+from offwind_pin.display.identified_plots import IdentifiedModes
 from offwind_pin.display.report import (
     CaseReport,
     MomentSpectrum,
@@ -40,6 +46,7 @@ from offwind_pin.display.report import (
     WindDescription,
     write_report,
 )
+from offwind_pin.display.settling_plot import Settling
 from offwind_pin.dynamics.system import System
 from offwind_pin.dynamics.wave_checks import wave_facts
 from offwind_pin.dynamics.wind_loads import tower_drag
@@ -68,6 +75,8 @@ class CaseResult:
     spectrum: MomentSpectrum | None = None
     rotor: tuple[tuple[str, str], ...] = ()
     earthquake: EarthquakeDescription | None = None
+    identified: IdentifiedModes | None = None
+    settling: Settling | None = None
 
 
 def run_case(
@@ -115,7 +124,7 @@ def _solve(
     if isinstance(case.analysis, StaticAnalysis):
         return _solve_static(case, turbine, case.analysis, folder, progress)
     if isinstance(case.analysis, ModalAnalysis):
-        return _solve_modes(case, turbine, case.analysis, folder)
+        return _solve_modes(case, turbine, case.analysis, folder, progress)
     return _solve_transient(case, turbine, case.analysis, folder, out, progress)
 
 
@@ -139,14 +148,21 @@ def _solve_static(
             increase = float(state.tower_top_displacement[0]) / reference - 1
             summary[f"increase_over_{analysis.compare_with}_percent"] = 100 * increase
     data = static_to_dataset(system, state)
+    settling = None
     if analysis.settle is not None:
         settling = settle(system, state, analysis.settle, progress)
-        summary |= settling.summary()
-        data = data.assign(settling.variables())
-    return CaseResult(summary, data, system, None, statics)
+        summary |= summarise_settling(settling)
+        data = data.assign(settling_variables(settling))
+    return CaseResult(summary, data, system, None, statics, settling=settling)
 
 
-def _solve_modes(case: Case, turbine: Turbine, analysis: ModalAnalysis, folder: Path) -> CaseResult:
+def _solve_modes(
+    case: Case,
+    turbine: Turbine,
+    analysis: ModalAnalysis,
+    folder: Path,
+    progress: Progress | None,
+) -> CaseResult:
     system = _build(case, turbine, case.foundation, folder)
     state = static(system)
     result = modes(system, analysis.count, state)
@@ -166,7 +182,13 @@ def _solve_modes(case: Case, turbine: Turbine, analysis: ModalAnalysis, folder: 
         mass_normalised=result.mass_normalised,
         attributes=_attributes(system),
     )
-    return CaseResult(summary, data, system, result, {case.foundation: state})
+    identified = None
+    if analysis.identify is not None:
+        identified = identify(system, result, analysis.identify, case.seed, progress)
+        summary |= summarise_identified(identified)
+        data = data.assign(identified_variables(identified))
+    statics = {case.foundation: state}
+    return CaseResult(summary, data, system, result, statics, identified=identified)
 
 
 def _solve_transient(
@@ -313,6 +335,8 @@ def _write(case: Case, turbine: Turbine, out: Path, result: CaseResult) -> None:
         psd=result.spectrum,
         rotor=result.rotor,
         earthquake=result.earthquake,
+        identified=result.identified,
+        settling=result.settling,
     )
     # The summary is written last, so that where it stands the other files belong to it.
     (out / "summary.json").unlink(missing_ok=True)

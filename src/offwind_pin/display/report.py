@@ -20,8 +20,10 @@ from offwind_pin.analysis.modal import ModalResult
 from offwind_pin.analysis.static import StaticResult
 from offwind_pin.display import headline, plots, tables
 from offwind_pin.display.earthquake_plots import EarthquakeDescription, response_spectrum_plot
+from offwind_pin.display.identified_plots import IdentifiedModes, identified_plot
 from offwind_pin.display.page import environment
 from offwind_pin.display.sea_section import SeaPicture, sea_pictures
+from offwind_pin.display.settling_plot import Settling, settling_plot
 from offwind_pin.display.style import to_svg
 from offwind_pin.display.wording import DASH, is_mode
 from offwind_pin.dynamics.system import System
@@ -34,6 +36,7 @@ SECTIONS = {
     "published": "Beside the published numbers",
     "structure": "The structure",
     "modes": "Natural modes",
+    "identified": "Modes out of accelerations",
     "statics": "Static equilibrium",
     "wind": "The synthetic wind",
     "rotor": "The running rotor",
@@ -162,6 +165,8 @@ class CaseReport:
     psd : of the fore-aft moment at the mudline
     rotor : name and value of what is to be told of a rotor that runs, or nothing
     earthquake : that moves the ground, or None
+    identified : modes out of accelerations, or None
+    settling : the static state reached in time, or None
     """
 
     name: str
@@ -177,6 +182,8 @@ class CaseReport:
     psd: MomentSpectrum | None = None
     rotor: tuple[tuple[str, str], ...] = ()
     earthquake: EarthquakeDescription | None = None
+    identified: IdentifiedModes | None = None
+    settling: Settling | None = None
 
     @property
     def analysed(self) -> xr.Dataset | None:
@@ -219,11 +226,13 @@ def _tables(report: CaseReport) -> dict[str, Any]:
         "structure": tables.structure_facts(report.system),
         "modes": tables.mode_rows(report),
         "statics": tables.ordered_statics(report),
+        "settling": report.settling,
         "increases": headline.static_increases(report),
         "wind": tables.wind_facts(report.wind),
         "rotor": list(report.rotor),
         "rotor_damping": report.summary.get("aerodynamic_damping", []),
         "earthquake": report.earthquake,
+        "identified": report.identified,
         "histories": report.histories is not None,
         "statistics": tables.statistics(report),
         "psd": report.psd,
@@ -253,6 +262,10 @@ def _figures(report: CaseReport) -> dict[str, Figure]:
         figures["modes"] = plots.mode_shapes(report.modes, mudline, water=water)
     if report.statics:
         figures["statics"] = plots.statics(tables.ordered_statics(report), water=water)
+    if report.settling is not None:
+        figures["settling"] = settling_plot(report.settling)
+    if report.identified is not None:
+        figures["identified"] = identified_plot(report.identified)
     if report.earthquake is not None:
         figures["earthquake"] = response_spectrum_plot(report.earthquake)
     if report.histories is not None:

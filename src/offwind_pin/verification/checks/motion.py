@@ -91,6 +91,22 @@ def load_case_settled(name: str) -> float:
     return float(_load_case(name)["settled_difference_m"])
 
 
+def load_case_identified(name: str, mode: str, quantity: str) -> Found:
+    """Frequency or damping ratio of a mode out of accelerations, and of the eigenanalysis."""
+    row = _identified(name, mode)
+    return Found(float(row[quantity]), float(row[f"eigenanalysis_{quantity}"]))
+
+
+def load_case_assurance(name: str, mode: str) -> float:
+    """Modal assurance of a shape out of accelerations and the computed one."""
+    return float(_identified(name, mode)["modal_assurance"])
+
+
+def _identified(name: str, mode: str) -> dict[str, Any]:
+    rows = _load_case(name)["identified_modes"]
+    return next(row for row in rows if row["label"] == mode)
+
+
 def load_case_peak(name: str, peak: str) -> Found:
     """Peak of the moment's spectrum near a mode in Hz, and the mode's own frequency."""
     summary = _load_case(name)

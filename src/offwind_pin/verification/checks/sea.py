@@ -8,12 +8,13 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.special import jvp, yvp
 
-from offwind_pin.dynamics.irregular_sea import IrregularWaves
+from offwind_pin.dynamics.irregular_sea import Crest, IrregularWaves
 from offwind_pin.loads.diffraction import inertia_factor
 from offwind_pin.loads.dispersion import wave_number
 from offwind_pin.loads.linear_waves import LinearWaves
 from offwind_pin.loads.morison import MorisonForce
 from offwind_pin.loads.points import PointMotion
+from offwind_pin.loads.second_order_waves import SecondOrderWaves
 from offwind_pin.loads.steady_wave import SteadyWave
 from offwind_pin.loads.strips import Strips
 from offwind_pin.loads.water_series import WaterSeries, WaterSurface
@@ -140,6 +141,61 @@ def realised_height() -> float:
     sea = IrregularWaves(1.25, 5.5, seed=1, repeat_period=600.0)
     waves = sea.waves(30.0, _GRAVITY)
     return float(4 * np.sqrt(np.sum(np.abs(waves.elevation) ** 2) / 2))
+
+
+def _pair(depth: float) -> tuple[SecondOrderWaves, Array]:
+    """Two waves of 10 and 8 s and 1 m each, to second order, and their wave numbers."""
+    harmonic = np.array([4.0, 5.0])
+    linear = LinearWaves.free(40.0, harmonic, np.array([1.0 + 0j, 1.0]), depth, _GRAVITY)
+    return SecondOrderWaves(linear, cutoff=np.inf), linear.wave_number
+
+
+def bound_sum() -> Found:
+    """Elevation in m at the sum of two frequencies in deep water, and a b (k1 + k2) / 2."""
+    waves, k = _pair(2000.0)
+    return Found(float(waves.bound[waves.harmonic == 9][0].real), float((k[0] + k[1]) / 2))
+
+
+def bound_difference() -> Found:
+    """The same at the difference, and -a b |k1 - k2| / 2."""
+    waves, k = _pair(2000.0)
+    return Found(float(waves.bound[waves.harmonic == 1][0].real), float(-abs(k[0] - k[1]) / 2))
+
+
+def _steep(depth: float) -> tuple[SecondOrderWaves, float]:
+    waves = SecondOrderWaves(_regular(depth, 1.0, 10.0), cutoff=np.inf)
+    return waves, float(waves.first_order.wave_number[0])
+
+
+def second_harmonic(depth: float) -> Found:
+    """Of a regular wave in m, and Stokes' k a^2 cosh kd (2 + cosh 2kd) / (4 sinh^3 kd)."""
+    waves, k = _steep(depth)
+    kd = k * depth
+    exact = k * np.cosh(kd) * (2 + np.cosh(2 * kd)) / (4 * np.sinh(kd) ** 3)
+    return Found(float(waves.elevation[waves.harmonic == 2][0].real), float(exact))
+
+
+def set_down(depth: float) -> Found:
+    """Mean elevation of a regular wave in m, and -k a^2 / (2 sinh 2kd)."""
+    waves, k = _steep(depth)
+    mean = float(waves.elevation[waves.harmonic == 0][0].real)
+    return Found(mean, float(-k / (2 * np.sinh(2 * k * depth))))
+
+
+def crest_in_a_random_sea() -> float:
+    """Elevation in m at the moment for which a crest of 6 m was asked."""
+    sea = IrregularWaves(6.0, 10.0, seed=4, repeat_period=1200.0, crest=Crest(6.0, 321.0))
+    waves = sea.waves(30.0, _GRAVITY)
+    return float(np.sum(waves.elevation * np.exp(1j * waves.omega * 321.0)).real)
+
+
+def random_variance() -> Found:
+    """m0 in m2 of three hours of random amplitudes, and Hs^2 / 16 (JONSWAP 6 m, 10 s, 3.3)."""
+    sea = IrregularWaves(
+        6.0, 10.0, seed=11, repeat_period=10800.0, peak_shape=3.3, amplitudes="random"
+    )
+    waves = sea.waves(30.0, _GRAVITY)
+    return Found(float(np.sum(np.abs(waves.elevation) ** 2) / 2), 6.0**2 / 16)
 
 
 def quadratic_drag() -> Found:

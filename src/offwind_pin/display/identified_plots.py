@@ -1,0 +1,81 @@
+"""Modes identified from accelerations: singular values, and shapes beside the computed ones."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from offwind_pin.display.style import BLUE, FULL_WIDTH, MUTED, VERMILLION, styled
+from offwind_pin.signal.operational_modes import OperationalModes
+from offwind_pin.turbines.base import Array
+
+_BAND = (0.05, 3.0)
+"""Hz that are shown."""
+
+
+@dataclass(frozen=True, eq=False)
+class IdentifiedModes:
+    """Identified modes beside those of the eigenanalysis, m of them at n nodes.
+
+    Attributes
+    ----------
+    label : of the modes
+    height : (n,) of the nodes in m
+    found : out of the accelerations
+    frequency_hz, damping_ratio : (m,) of the eigenanalysis
+    shape : (m, n) of the eigenanalysis at the nodes, unit peak among them
+    assurance : (m,) modal assurance of identified and computed shapes
+    peak_height_ratio : (m,) height of the identified peak, mudline 0, yaw bearing 1; between nodes
+        by a parabola
+    duration, seed : of the record in s, and of the white noise
+    """
+
+    label: tuple[str, ...]
+    height: Array
+    found: OperationalModes
+    frequency_hz: Array
+    damping_ratio: Array
+    shape: Array
+    assurance: Array
+    peak_height_ratio: Array
+    duration: float
+    seed: int
+
+
+@styled
+def identified_plot(modes: IdentifiedModes) -> Figure:
+    """Singular values over frequency, and the normalised shapes over height."""
+    figure = Figure(figsize=(FULL_WIDTH, 0.5 * FULL_WIDTH), layout="constrained")
+    values, shapes = figure.subplots(1, 2, width_ratios=[1.5, 1])
+    found = modes.found
+    inside = (found.frequencies > _BAND[0]) & (found.frequencies < _BAND[1])
+    for number, color in ((1, MUTED), (0, BLUE)):
+        level = 10 * np.log10(found.singular_values[inside, number])
+        values.plot(
+            found.frequencies[inside],
+            level,
+            color=color,
+            linewidth=0.8,
+            label=("first", "second")[number],
+        )
+    top = values.get_ylim()[1]
+    for i, (label, color) in enumerate(zip(modes.label, (BLUE, VERMILLION), strict=True)):
+        at = float(found.frequency_hz[i])
+        values.axvline(at, color=color, linewidth=0.8, linestyle=":")
+        values.annotate(
+            f"{label} {at:.3f} Hz", (at, top), (3, -3), textcoords="offset points", va="top"
+        )
+        shapes.plot(modes.shape[i], modes.height, color=color, linewidth=1.0, label=label)
+        shapes.plot(found.shape[i], modes.height, "o", color=color, markersize=3.5)
+    values.set_xlim(0, _BAND[1])
+    values.set_xlabel("frequency, Hz")
+    values.set_ylabel("singular values, dB of (m/s²)²/Hz")
+    values.legend(loc="lower right")
+    shapes.axvline(0.0, color=MUTED, linewidth=0.5)
+    shapes.set_xlabel("fore-aft shape, unit peak")
+    shapes.set_ylabel("height z, m")
+    shapes.set_title("identified (dots), eigenanalysis (lines)", fontsize="small")
+    shapes.legend(loc="lower right")
+    return figure

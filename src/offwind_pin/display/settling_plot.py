@@ -1,0 +1,55 @@
+"""An undeformed structure that gravity seizes, on its way to the static state."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from offwind_pin.display.style import BLUE, FULL_WIDTH, MUTED, VERMILLION, styled
+from offwind_pin.turbines.base import Array
+
+_FIRST = 100.0
+"""s that the left panel shows: some ten periods of the first mode that matter."""
+
+
+@dataclass(frozen=True, eq=False)
+class Settling:
+    """How a structure came to rest, beside its static state.
+
+    Attributes
+    ----------
+    time : (t,) in s
+    tower_top : (t, 3) displacement of the yaw bearing in m
+    difference : (t,) largest distance of any recorded height from its static place in m
+    static : (3,) displacement of the yaw bearing in the static state in m
+    """
+
+    time: Array
+    tower_top: Array
+    difference: Array
+    static: Array
+
+
+@styled
+def settling_plot(settling: Settling) -> Figure:
+    """The yaw bearing at first, and how far the whole structure is off its static state."""
+    figure = Figure(figsize=(FULL_WIDTH, 2.8))
+    first, whole = figure.subplots(1, 2)
+    early = settling.time <= _FIRST
+    first.plot(settling.time[early], settling.tower_top[early, 0], color=BLUE, lw=1.0)
+    first.axhline(settling.static[0], color=VERMILLION, lw=1.0, ls="--", label="static state")
+    first.set_xlabel("time, s")
+    first.set_ylabel("yaw bearing, x in m")
+    first.legend(loc="upper right")
+    shown = settling.difference > 0
+    whole.semilogy(settling.time[shown], settling.difference[shown], color=BLUE, lw=1.0)
+    whole.axhline(1e-6, color=MUTED, lw=0.8, ls=":")
+    whole.annotate(
+        "1 µm", (settling.time[-1], 1e-6), (0, 3), textcoords="offset points", ha="right"
+    )
+    whole.set_ylim(bottom=max(float(np.min(settling.difference[shown])), 1e-15))
+    whole.set_xlabel("time, s")
+    whole.set_ylabel("largest distance, m")
+    return figure
