@@ -21,6 +21,7 @@ html_theme = "furo"
 html_static_path = ["static"]
 html_css_files = ["pages.css"]
 html_copy_source = False
+html_show_copyright = False
 exclude_patterns = ["docs/contents.md", "docs/gallery/*", "sim", "src"]
 
 extensions = [
