@@ -164,7 +164,7 @@ def test_make_targets_and_scripts_are_there() -> None:
         if page.parent.name == "howto":
             continue
         text = page.read_text()
-        made |= set(re.findall(r"(?:`|^)make\s([a-z]+)", text, re.M))
+        made |= set(re.findall(r"(?:`|^)make\s+([a-z]+)", text, re.M))
         scripts |= set(re.findall(r"(?:`|^)python ([\w/]+\.py)", text, re.M))
     assert {"demo", "docs", "lock", "test"} <= made <= targets
     assert "viz/mode_shapes.py" in scripts
