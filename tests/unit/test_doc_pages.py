@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from helpers.pages import ROOT, blocks
+from helpers.doc_pages import ROOT, blocks
 
 import offwind_pin as ow
 
@@ -102,6 +102,18 @@ def test_every_page_is_in_the_contents() -> None:
     pages = {page for page in DOCS.rglob("*.md") if page.name != "contents.md"}
     assert pages <= listed
     assert all(page.is_file() for page in listed)
+
+
+def test_docs_run_on_what_the_tests_ran_on() -> None:
+    """A package that both lock files hold has one version in them."""
+    tests, docs = (
+        dict(re.findall(r"^([\w.-]+)==(\S+)", path.read_text(), re.M))
+        for path in (ROOT / "requirements.lock", DOCS / "requirements.lock")
+    )
+    both = tests.keys() & docs.keys()
+    assert {"numpy", "numba", "matplotlib"} <= both
+    assert "sphinx" in docs.keys() - tests.keys()
+    assert {name: docs[name] for name in both} == {name: tests[name] for name in both}
 
 
 def _commands() -> Iterator[tuple[str, str]]:

@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 import xarray as xr
-from helpers.pages import ROOT, Block, blocks, compare, follow
+from helpers.doc_pages import ROOT, Block, blocks, compare, follow
 
 import offwind_pin as ow
 from offwind_pin import cli
