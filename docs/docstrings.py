@@ -7,9 +7,10 @@ are typed. Only literals between double backquotes and roles such as ``:func:`` 
 from __future__ import annotations
 
 import re
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from sphinx.application import Sphinx
+if TYPE_CHECKING:
+    from sphinx.application import Sphinx
 
 _MARKUP = re.compile(r"(``.*?``|:\w+:`.*?`)")
 _ENTRY = re.compile(r"(\w+(?:, \w+)*) : (.*)")

@@ -2,9 +2,9 @@
 Wind and waves in time, and the spectrum at the seabed
 ======================================================
 
-Two minutes of a running rotor in turbulent wind above irregular waves, from the static state under
-the mean thrust. The moment at the mudline has its energy at the waves' peak, at the first mode, and
-at the passing of the blades.
+Three minutes of a running rotor in turbulent wind above irregular waves, from the static state
+under the mean thrust. The moment at the mudline follows the slow wind, the waves, and the passing
+of the blades; the first mode, which the rotor damps, is broad and no more than the waves'.
 """
 
 import matplotlib.pyplot as plt

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
+import runpy
 import shlex
 from collections.abc import Iterator
 from pathlib import Path
@@ -93,6 +94,29 @@ def test_reference_holds_every_public_name() -> None:
         for name in re.findall(r"^\.\. auto(?:function|class):: (\w+)", page.read_text(), re.M)
     ]
     assert sorted(listed) == sorted(ow.__all__)
+
+
+def test_docstrings_as_rest() -> None:
+    """Sections, entries and what goes on in the next line are markup; formulas are plain text."""
+    to_rest = runpy.run_path(str(DOCS / "docstrings.py"))["to_rest"]
+    lines = [
+        "A |w| w of ``x_`` by :func:`f`, phi' D_ phi * 2.",
+        "",
+        "Parameters",
+        "----------",
+        "dt, ramp : in s",
+        "load : (6,) in N;",
+        "    or none",
+    ]
+    assert [line for line in to_rest(lines) if line] == [
+        r"A \|w\| w of ``x_`` by :func:`f`, phi' D\_ phi \* 2.",
+        "**Parameters**",
+        "``dt``, ``ramp``",
+        "    in s",
+        "``load``",
+        "    (6,) in N;",
+        "    or none",
+    ]
 
 
 def test_every_page_is_in_the_contents() -> None:

@@ -36,9 +36,9 @@ EXPECTED: dict[str, dict[str, tuple[float, float]]] = {
     },
     "plot_04_steep_wave": {
         "linear: crest, m": (5.0, 1e-6),
-        "linear: largest moment, MN m": (25.46, 0.01),
+        "linear: largest moment, MN m": (24.52, 0.01),
         "stream function: crest, m": (6.894, 2e-3),
-        "stream function: largest moment, MN m": (34.73, 0.01),
+        "stream function: largest moment, MN m": (40.24, 0.01),
     },
     "plot_05_own_soil_curves": {
         "FA1, curves times 1, Hz": (0.2399, 2e-3),
