@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 from docutils import nodes
@@ -11,11 +12,14 @@ from sphinx.util import logging
 
 _log = logging.getLogger(__name__)
 
+_FUNCTION = re.compile(r"(\\(?:cosh|cos|ln|sinh|sin|tanh)(?:\^\w|\^\{[^}]*\})?)(?= +[\w\\])")
+"""Before an argument without brackets; TeX puts a thin space there, the converter does not."""
+
 
 def _mathml(tex: str, node: nodes.Node, *, block: bool) -> str:
     """A ``<math>`` element; TeX that cannot be read is a warning, which ends the build."""
     try:
-        return tex2mathml(tex, as_block=block)
+        return tex2mathml(_FUNCTION.sub(r"\1 \\,", tex), as_block=block)
     except Exception as error:  # docutils raises SyntaxError, and others from within
         _log.warning("equation cannot be read: %s in %s", error, tex, location=node)
         return ""
