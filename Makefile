@@ -3,10 +3,11 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 INSTALLED := $(VENV)/installed
+DOCS_INSTALLED := $(VENV)/docs-installed
 export OMP_NUM_THREADS := 1
 export OPENBLAS_NUM_THREADS := 1
 
-.PHONY: help install demo test check lint format types bench peers urdf lock clean
+.PHONY: help install demo test check lint format types bench peers urdf docs lock clean
 
 help: ## List the targets
 	@grep -E '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 12
@@ -50,11 +51,30 @@ peers: $(INSTALLED) ## Install the codes that bench compares with
 urdf: $(INSTALLED) ## Write the shipped URDF files anew
 	$(BIN)/python sim/write_urdf.py
 
-lock: ## Resolve the dependencies anew into requirements.lock
+# Sphinx has a lock file of its own, so that tests and demo need not install it. It is resolved under
+# requirements.lock: what both hold is the same version, and the docs run what the tests ran.
+$(DOCS_INSTALLED): $(INSTALLED) docs/requirements.lock
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r docs/requirements.lock
+	touch $@
+
+# The pages are built from copies, because the gallery is written beside its sources.
+docs: $(DOCS_INSTALLED) ## Build the documentation to out/docs
+	rm -rf out/docs out/docs-source
+	mkdir -p out/docs-source
+	cp -R CHANGELOG.md CONTRIBUTING.md VERIFICATION.md docs out/docs-source/
+	ln -s $(CURDIR)/sim $(CURDIR)/src out/docs-source/
+	cat README.md docs/contents.md > out/docs-source/index.md
+	$(BIN)/python -m sphinx -c docs -b html -W --keep-going --color out/docs-source out/docs
+	@echo "Open out/docs/index.html in a browser."
+
+lock: ## Resolve the dependencies anew into requirements.lock and docs/requirements.lock
 	$(PYTHON) -m venv $(VENV)-lock
 	$(VENV)-lock/bin/python -m pip install --quiet 'uv>=0.5'
 	$(VENV)-lock/bin/uv pip compile pyproject.toml --group dev --universal --python-version 3.11 \
 		--generate-hashes --no-emit-index-url --no-header --no-annotate --output-file requirements.lock
+	$(VENV)-lock/bin/uv pip compile pyproject.toml --group docs --universal --python-version 3.11 \
+		--constraints requirements.lock --generate-hashes --no-emit-index-url --no-header --no-annotate \
+		--output-file docs/requirements.lock
 	rm -rf $(VENV)-lock
 
 clean: ## Remove the environment and all results

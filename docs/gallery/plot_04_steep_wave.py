@@ -1,0 +1,48 @@
+"""
+A steep wave against a linear one
+=================================
+
+The same height and period twice: by linear theory up to the mean water level, and by stream
+function theory up to the crest, once both have settled. In shallow water the crest is higher and
+narrower than half the height, what acts above the mean level has the longest arm to the mudline,
+and the harmonics of the steep wave shake the first mode.
+"""
+
+import matplotlib.pyplot as plt
+
+import offwind_pin as ow
+from offwind_pin.display.style import BLUE, VERMILLION, styled
+
+HEIGHT, PERIOD, PERIODS = 10.0, 11.0, 20
+
+
+@styled
+def main() -> dict[str, float]:
+    """Crest in m and largest moment at the mudline in MN m, of either theory."""
+    turbine = ow.load_turbine("oc3_phase2")
+    crest_time = (PERIODS - 0.5) * PERIOD
+    steep = ow.StreamWaves(HEIGHT, PERIOD, crest_time=crest_time)
+    seas = {"linear": ow.RegularWaves(HEIGHT, PERIOD), "stream function": steep}
+    _, (above, below) = plt.subplots(2, 1, figsize=(7.2, 5.0), sharex=True)
+    found = {}
+    for (name, sea), color in zip(seas.items(), (BLUE, VERMILLION), strict=True):
+        system = ow.build(turbine, "coupled_springs", sea, elements=20)
+        history = ow.simulate(system, PERIODS * PERIOD, 0.05, ramp=10 * PERIOD)
+        # One period with the crest in its middle; the linear wave's comes at whole periods.
+        start = (PERIODS - (1.5 if name == "linear" else 1)) * PERIOD
+        last = history.sel(time=slice(start - 0.01, start + PERIOD + 0.01))
+        surface = last["wave_elevation"].values
+        moment = last["mudline_moment"].sel(direction="y").values / 1e6
+        above.plot(last.time - start, surface, color=color, label=name)
+        below.plot(last.time - start, moment, color=color, label=name)
+        found[f"{name}: crest, m"] = float(surface.max())
+        found[f"{name}: largest moment, MN m"] = float(moment.max())
+    above.set(ylabel="surface, m", title=f"{HEIGHT:g} m high, {PERIOD:g} s, in 20 m of water")
+    below.set(ylabel="moment at mudline, MN m", xlabel="time, s")
+    above.legend()
+    return found
+
+
+if __name__ == "__main__":
+    for name, value in main().items():
+        print(f"{name}: {value:.4g}")
