@@ -51,6 +51,8 @@ SECTIONS = {
     "provenance": "Provenance",
 }
 """Sections in their order; those without data are left out."""
+_MORE_TITLES = {"settling": "The static state reached in time"}
+"""Of figures that stand in a section beside its own."""
 
 
 @dataclass(frozen=True)
@@ -212,7 +214,7 @@ def render_report(report: CaseReport) -> str:
             cards=headline.cards(report),
             shown=shown,
             figures=_pictures(report, sea),
-            titles=SECTIONS | {picture.name: picture.title for picture in sea},
+            titles=SECTIONS | _MORE_TITLES | {picture.name: picture.title for picture in sea},
             contents={name: title for name, title in SECTIONS.items() if shown.get(name)},
         )
     )
