@@ -327,6 +327,7 @@ def _channels(recorder: RecorderArrays, step: float) -> Records:
         "acceleration",
         "section_load",
         "imbalance",
+        "soil_force",
         "slip",
         "stored",
         "dissipated",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from offwind_pin.dynamics.system import System
@@ -17,10 +19,21 @@ def scenery(system: System) -> Constants:
 
     Of a sea with more than 4000 components the fewest are kept that hold 99.9 % of its variance.
     """
-    return _outline(system) | _waves(system)
+    return outline(system) | _waves(system)
 
 
-def _outline(system: System) -> Constants:
+def told(system: System) -> dict[str, Any]:
+    """Attributes: mudline, rotor-nacelle assembly as defined, and the sea in words."""
+    sea = system.sea
+    water = {} if sea is None else {"water_level_m": sea.water_level, "waves": sea.in_words}
+    return {
+        "mudline_m": system.turbine.site.mudline,
+        "rotor_nacelle": system.turbine.rna.model_dump_json(),
+        **water,
+    }
+
+
+def outline(system: System) -> Constants:
     """Outer diameters at both ends of all frusta, upwards; heights repeat where it jumps."""
     chain = system.chain
     ends = [

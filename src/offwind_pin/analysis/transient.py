@@ -21,7 +21,7 @@ from offwind_pin.analysis.integrators import (
     StepFailed,
     first_record,
 )
-from offwind_pin.analysis.scenery import scenery
+from offwind_pin.analysis.scenery import scenery, told
 from offwind_pin.analysis.static import static
 from offwind_pin.dynamics.compiled_chain import CompiledChain
 from offwind_pin.dynamics.equations import smooth_ramp
@@ -99,9 +99,10 @@ def simulate(
     Returns
     -------
     Dataset with ``displacement``, ``acceleration``, ``section_force`` and ``section_moment`` over
-    time and height, the mudline and tower-top channels, the applied load, the waves, the ground's
-    motion in an earthquake, the displacements of tuned mass dampers, the ledger of energies, the
-    solver's own account, and what a picture needs (:mod:`offwind_pin.analysis.scenery`); see
+    time and height, the mudline and tower-top channels, the applied load, ``soil_force`` at the
+    nodes of the soil, the waves, the ground's motion in an earthquake, the displacements of tuned
+    mass dampers, the ledger of energies, the solver's own account, and what a picture needs
+    (:mod:`offwind_pin.analysis.scenery`); see
     ``attrs`` for versions, seeds and settings. With a ``directory`` it reads from the file there,
     channel by channel as they are asked for.
 
@@ -158,6 +159,7 @@ def simulate(
         scenery(system),
         _ground_levels(system, ground_motion),
         {mass.name: mass.travel for mass in system.chain.sliding_mass},
+        chain.soil.height,
     )
     cautioned: set[str] = set()
     if len(store) == 0:
@@ -350,13 +352,6 @@ def _told_of_waves(system: System) -> dict[str, Any]:
     return told
 
 
-def _water(system: System) -> dict[str, Any]:
-    """Of the sea what pictures say in words; nothing of a dry structure."""
-    if system.sea is None:
-        return {}
-    return {"water_level_m": system.sea.water_level, "waves": system.sea.in_words}
-
-
 def _ground_levels(system: System, motion: GroundMotion | None) -> Array:
     """(D,) heights in m of the ground's recorded motion; none without an earthquake."""
     if motion is None:
@@ -388,13 +383,12 @@ def _provenance(
         "sea": repr(system.sea) if system.sea else "dry",
         "wave_seed": -1 if system.sea is None else system.sea.wave_seed,
         **_told_of_waves(system),
-        **_water(system),
+        **told(system),
         "tower_top_load_origin": "; ".join(history.origin for history in origins) or "none",
         "surrogates": " | ".join(text for text in surrogates if text) or "none",
         "elements": system.chain.elements,
         "element": "timoshenko" if "px" in system.chain.node_joints else "euler_bernoulli",
         "ramp_s": ramp,
         "output_dt_s": interval,
-        "rotor_nacelle": system.turbine.rna.model_dump_json(),
         **method.describe(),
     }

@@ -12,6 +12,7 @@ import xarray as xr
 
 from offwind_pin.analysis.build import build
 from offwind_pin.analysis.modal import ModalResult, modes
+from offwind_pin.analysis.scenery import outline, told
 from offwind_pin.analysis.static import StaticResult, static
 from offwind_pin.analysis.transient import simulate
 from offwind_pin.campaign.case import (
@@ -173,15 +174,7 @@ def _solve_modes(
         f"{row['label']}_peak_height_ratio": row["shape_peak_height_ratio"] for row in table
     }
     summary |= summarise_static(state)
-    data = modal_dataset(
-        result.height,
-        result.label,
-        frequency_hz=result.frequency_hz,
-        damping_ratio=result.damping_ratio,
-        shape=result.shape,
-        mass_normalised=result.mass_normalised,
-        attributes=_attributes(system),
-    )
+    data = modes_to_dataset(system, result)
     identified = None
     if analysis.identify is not None:
         identified = identify(system, result, analysis.identify, case.seed, progress)
@@ -289,6 +282,20 @@ def static_to_dataset(system: System, state: StaticResult) -> xr.Dataset:
         section_load=state.section_load,
         attributes=_attributes(system)
         | {"iterations": state.iterations, "residual": state.residual},
+    )
+
+
+def modes_to_dataset(system: System, result: ModalResult) -> xr.Dataset:
+    """Natural modes with their provenance, and what a picture of them needs."""
+    return modal_dataset(
+        result.height,
+        result.label,
+        frequency_hz=result.frequency_hz,
+        damping_ratio=result.damping_ratio,
+        shape=result.shape,
+        mass_normalised=result.mass_normalised,
+        attributes=_attributes(system) | told(system),
+        constants=outline(system),
     )
 
 

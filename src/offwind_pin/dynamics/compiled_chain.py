@@ -27,6 +27,7 @@ from offwind_pin.dynamics.recorder_arrays import (
     make_cuts,
     make_recorder,
     make_segments,
+    make_soil_nodes,
 )
 from offwind_pin.dynamics.recording import take_note
 from offwind_pin.dynamics.restraints import as_kernel_restraint
@@ -52,6 +53,7 @@ class CompiledChain:
     ----------
     arrays : the system as arrays, with the state last evaluated
     loads : soil, water and what was given, in compiled form
+    soil : nodes at which the foundation's soil acts
     ground_motion : of the ground below, or None
     """
 
@@ -69,6 +71,7 @@ class CompiledChain:
         self._given = loads
         everything = all_loads(system, loads)
         self.loads = [as_kernel_load(load) for load in everything]
+        self.soil = make_soil_nodes(everything, system.foundation.soil)
         self._root = as_kernel_restraint(system.foundation.root)
         ground = grounding(system, everything, ground_motion)
         self.arrays = chain_arrays(system, self.loads, self._root, ground)
@@ -130,7 +133,7 @@ class CompiledChain:
         self, sections: tuple[Cuts, Segments], every: int = 1, records: int = 1
     ) -> RecorderArrays:
         """An empty recorder that takes every so manieth step, for a number of records."""
-        return make_recorder(self.arrays, *sections, self.stores, every, records)
+        return make_recorder(self.arrays, *sections, self.soil, self.stores, every, records)
 
     @property
     def stores(self) -> NDArray[np.bool_]:

@@ -9,7 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from offwind_pin.dynamics.chain_arrays import ChainArrays
+from offwind_pin.dynamics.grounding import is_soil
 from offwind_pin.dynamics.system import System
+from offwind_pin.loads.points import PointLoad
 from offwind_pin.structure.chain import NDArrayInt
 from offwind_pin.structure.section import lump
 from offwind_pin.turbines.base import Array
@@ -53,11 +55,20 @@ class Segments(NamedTuple):
     point: NDArrayInt  # loaded points above the lower and not above the upper cut
 
 
+class SoilNodes(NamedTuple):
+    """Heights at which soil acts: n of them, each with one loaded point or more."""
+
+    height: Array  # (n,) in m, rising
+    point: NDArrayInt  # (S,) loaded points of the soil
+    node: NDArrayInt  # (S,) height that each belongs to
+
+
 class RecorderArrays(NamedTuple):
     """Room for T records at m cuts and g segments under L loads, and sums that go on."""
 
     cuts: Cuts
     segments: Segments
+    soil: SoilNodes
     every: int  # steps between records
     stores: NDArray[np.bool_]  # (L,) whether a load stores energy, and so does no work
     tally: NDArrayInt  # (2,) steps taken, records made
@@ -69,6 +80,7 @@ class RecorderArrays(NamedTuple):
     acceleration: Array  # (T, m, 3) in m/s2
     section_load: Array  # (T, m, 6) in N and N m
     imbalance: Array  # (T, g, 6) of the segments in N and N m
+    soil_force: Array  # (T, n, 3) of the soil on the pile in N
     slip: Array  # (T, D, 2) of the tuned mass dampers along x and y of their carriers in m
     stored: Array  # (T, L + 4) energies that the state holds in J, see STATE_ENERGIES
     dissipated: Array  # (T, L + 2) in J
@@ -123,6 +135,20 @@ def make_segments(
     )
 
 
+def make_soil_nodes(loads: Sequence[PointLoad], soil: tuple[PointLoad, ...]) -> SoilNodes:
+    """Nodes of a foundation's soil among all the loads of a system."""
+    first = _beginnings([np.arange(len(load.height)) for load in loads])
+    points = [
+        np.arange(begin, begin + len(load.height))
+        for begin, load in zip(first[:-1], loads, strict=True)
+        if is_soil(load, soil)
+    ]
+    heights = [load.height for load in loads if is_soil(load, soil)]
+    height, node = np.unique(np.concatenate([np.zeros(0), *heights]), return_inverse=True)
+    none = np.zeros(0, dtype=np.intp)
+    return SoilNodes(height, np.concatenate([none, *points]), node.astype(np.intp))
+
+
 def _is_above(system: System, s: ChainArrays, height: float) -> NDArray[np.bool_]:
     """(P,) whether each loaded point lies above a cut.
 
@@ -152,6 +178,7 @@ def make_recorder(
     s: ChainArrays,
     cuts: Cuts,
     segments: Segments,
+    soil: SoilNodes,
     stores: NDArray[np.bool_],
     every: int,
     records: int,
@@ -161,6 +188,7 @@ def make_recorder(
     return RecorderArrays(
         cuts=cuts,
         segments=segments,
+        soil=soil,
         every=every,
         stores=stores,
         tally=np.zeros(2, dtype=np.intp),
@@ -172,6 +200,7 @@ def make_recorder(
         acceleration=np.zeros((records, m, 3)),
         section_load=np.zeros((records, m, 6)),
         imbalance=np.zeros((records, len(segments.cut), 6)),
+        soil_force=np.zeros((records, len(soil.height), 3)),
         slip=np.zeros((records, len(s.slider_body), 2)),
         stored=np.zeros((records, loads + len(STATE_ENERGIES))),
         dissipated=np.zeros((records, loads + 2)),

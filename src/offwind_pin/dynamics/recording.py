@@ -28,6 +28,7 @@ from offwind_pin.dynamics.recorder_arrays import (
     ROOT,
     Cuts,
     RecorderArrays,
+    SoilNodes,
 )
 from offwind_pin.dynamics.shaking import power_of_ground
 from offwind_pin.dynamics.tuned_mass import slider_energies, sliders_between, slips
@@ -85,10 +86,19 @@ def record(
     section_loads(s, r.cuts, r.section_load[i])
     imbalances(s, r, r.section_load[i], r.imbalance[i])
     store_energies(s, q, r.stored[i])
+    sum_soil(s, r.soil, r.soil_force[i])
     slips(s, q, r.slip[i])
     r.dissipated[i] = r.energy[0]
     r.worked[i] = r.energy[1]
     r.tally[1] += 1
+
+
+@kernel
+def sum_soil(s: ChainArrays, soil: SoilNodes, result: Array) -> None:
+    """Add to (n, 3) the forces of the soil's springs and dashpots on the pile at each node."""
+    for i in range(len(soil.point)):
+        for j in range(3):
+            result[soil.node[i], j] += s.force[soil.point[i], j]
 
 
 @kernel

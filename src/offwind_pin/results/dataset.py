@@ -40,6 +40,7 @@ class HistoryWriter:
     constants : what does not change with time, by name: dimension, values, attributes
     levels : (D,) heights in m at which the ground's motion is recorded; none without an earthquake
     dampers : travel in m of each tuned mass damper by its name
+    soil : (n,) heights in m of the nodes of the soil; none where no soil acts along the pile
     """
 
     mudline: float
@@ -51,6 +52,7 @@ class HistoryWriter:
     constants: Mapping[str, tuple[str, Array, dict[str, str]]] = field(default_factory=dict)
     levels: Array = field(default_factory=lambda: np.zeros(0))
     dampers: Mapping[str, float] = field(default_factory=dict)
+    soil: Array = field(default_factory=lambda: np.zeros(0))
 
     def write(self, store: BlockStore, status: str, directory: Path | str | None) -> xr.Dataset:
         """Dataset of all blocks; with a directory it stands in ``results.nc`` there.
@@ -179,6 +181,12 @@ class HistoryWriter:
                 {"long_name": "largest residual over the load scale", "units": "1"},
             ),
         }
+        if len(self.soil):
+            channels["soil_force"] = (
+                ("time", "soil_node", "direction"),
+                block["soil_force"],
+                _about("force of the soil's springs and dashpots on the pile at each node", "N"),
+            )
         if self.dampers:
             channels["tuned_mass_displacement"] = (
                 ("time", "damper", "across"),
@@ -209,6 +217,9 @@ class HistoryWriter:
             channels |= _ground_channels(block["ground_motion"])
             about = {"long_name": "height of the ground's recorded motion", "units": "m"}
             coordinates["level"] = ("level", self.levels, about)
+        if len(self.soil):
+            of_node = {"long_name": "undeformed height of the node of the soil", "units": "m"}
+            coordinates["soil_node"] = ("soil_node", self.soil, of_node)
         if self.dampers:
             coordinates |= {"damper": list(self.dampers), "across": ["x", "y"]}
         attributes = {

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -57,8 +58,12 @@ def modal_dataset(
     shape: Array,
     mass_normalised: Array,
     attributes: dict[str, Any],
+    constants: Mapping[str, tuple[str, Array, dict[str, str]]],
 ) -> xr.Dataset:
-    """Natural modes (n,) with shapes (n, m, 6) over height (m,) in m."""
+    """Natural modes (n,) with shapes (n, m, 6) over height (m,) in m.
+
+    constants : what else a picture needs, by name: dimension, values, attributes
+    """
     along = ("mode", "height", "motion")
     return xr.Dataset(
         {
@@ -70,6 +75,7 @@ def modal_dataset(
                 mass_normalised,
                 {"long_name": "shape with unit modal mass", "frame": FRAME},
             ),
+            **constants,
         },
         coords={
             "mode": label,
