@@ -36,6 +36,10 @@ class Frames:
     moment : (f, 2) at the mudline about x and y in N m
     x, y : (p,) (q,) of the patch of sea in m
     sea : (f, p, q) surface above its mean in m; None where it does not move
+    bending : (f, m) size of the bending moment in N m, of the section moments about x and y
+    top_force : (f, 3) load applied at the yaw bearing in N
+    soil_height : (n,) of the nodes of the soil at rest in m; none where results hold none
+    soil_force : (f, n, 3) of the soil on the pile in N
     """
 
     time: Array
@@ -46,6 +50,10 @@ class Frames:
     x: Array
     y: Array
     sea: Array | None
+    bending: Array
+    top_force: Array
+    soil_height: Array
+    soil_force: Array
 
 
 def frames(
@@ -111,7 +119,23 @@ def frames(
         x,
         x,
         sea,
+        _bending(part),
+        np.asarray(part.tower_top_load.sel(component=["Fx", "Fy", "Fz"]).values, dtype=float),
+        *_soil(part),
     )
+
+
+def _bending(part: xr.Dataset) -> Array:
+    moment = part.section_moment.sel(direction=["x", "y"]).values
+    return np.linalg.norm(np.asarray(moment, dtype=float), axis=2)
+
+
+def _soil(part: xr.Dataset) -> tuple[Array, Array]:
+    """Heights (n,) of the soil's nodes and forces (f, n, 3) there; n is zero without any."""
+    if "soil_force" not in part:
+        return np.zeros(0), np.zeros((part.sizes["time"], 0, 3))
+    height = np.asarray(part.soil_node.values, dtype=float)
+    return height, np.asarray(part.soil_force.values, dtype=float)
 
 
 def surface_waves(results: xr.Dataset) -> SurfaceWaves | None:
@@ -146,7 +170,14 @@ def outline(results: xr.Dataset, longest: float) -> tuple[Array, Array]:
 
 
 def _require(results: xr.Dataset) -> None:
-    needed = ("displacement", "mudline_moment", "outline_height", "outline_diameter")
+    needed = (
+        "displacement",
+        "section_moment",
+        "mudline_moment",
+        "tower_top_load",
+        "outline_height",
+        "outline_diameter",
+    )
     missing = [name for name in needed if name not in results]
     if missing or "time" not in results.dims:
         raise InputError(

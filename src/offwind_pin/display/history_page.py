@@ -17,13 +17,14 @@ from offwind_pin.display.frames import Frames, frames, outline
 from offwind_pin.display.page import environment
 from offwind_pin.display.recorder import Recorder, viewer_licence, viewer_script
 from offwind_pin.display.scene import (
+    COLOUR_MAP,
     MUDLINE_COLOUR,
     RNA_COLOUR,
     WATER_COLOUR,
     light,
     set_mesh,
 )
-from offwind_pin.display.wording import MINUS, fixed, foundation_name
+from offwind_pin.display.wording import MINUS, fixed, foundation_name, number
 from offwind_pin.results.files import write_text
 from offwind_pin.structure.meshes import Mesh, circle, loft
 from offwind_pin.structure.rotor import rna_meshes
@@ -44,9 +45,16 @@ _SEA_COLOURS = np.array([[20, 72, 128], [61, 143, 209], [214, 238, 250]]) / 255
 """Red, green and blue of the sea at its lowest, its mean and its highest point drawn."""
 _SHOWN_SHARE = 0.04
 """Of the height of the structure, which the largest displacement is not drawn beyond."""
+ARROW_SHARE = 0.24
+"""Of the height of the structure: length of the arrow of the largest force of each kind."""
+TOP_COLOUR, SOIL_COLOUR = 0xD55E00, 0x8C1D40
+_TOP_WIDTH, _SOIL_WIDTH = 0.006, 0.0012
+PLAIN = np.array([0xE9, 0xEC, 0xEF]) / 255
+"""Of the wall where no moment colours it."""
+_SPEEDS = (0.25, 0.5, 1, 2, 5, 10)
 _LEVEL = 1e-3
 """Half the range of a curve, over its largest value, below which it counts as constant."""
-_CHART = (276, 46)
+_CHART = (276, 34)
 """Breadth and height of a curve in the card."""
 
 
@@ -61,8 +69,10 @@ def render_time_history(results: xr.Dataset, start: float = 0.0, duration: float
     """HTML page of a part of a time history in motion; it needs no server and no network.
 
     The sea is drawn to scale, at the level that it has. Displacements are enlarged by a factor that
-    the page names and lets its reader choose. Neither the turning of the rotor nor torsion is in
-    results, so that neither is drawn.
+    the page names and lets its reader choose. Colours of the wall are the bending moment; arrows
+    are the load applied at the yaw bearing and the forces of the soil at its nodes, each kind with
+    a scale of its own. Neither the turning of the rotor nor torsion is in results, so that neither
+    is drawn.
 
     Parameters
     ----------
@@ -91,6 +101,8 @@ def render_time_history(results: xr.Dataset, start: float = 0.0, duration: float
             sea_gradient=", ".join(mpl.colors.to_hex(colour) for colour in _SEA_COLOURS),
             left_out=shown.sea is None and bool(np.any(shown.elevation)),
             surrogates=[text for text in told.split(" | ") if text not in ("", "none")],
+            speeds=_SPEEDS,
+            loads=_loads_in_words(results, shown),
             factors=_FACTORS,
             factor=_factor(shown),
             charts=_charts(shown),
@@ -116,29 +128,48 @@ def draw_scene(view: Any, results: xr.Dataset, shown: Frames) -> dict[str, Any]:
     Returns
     -------
     What the page's script must know of these meshes: ``rim``, numbers of the vertices of the
-    surface that are the rim.
+    surface that are the rim; ``soil_radius`` in m, where arrows of the soil begin.
     """
     light(view)
     height, radius = outline(results, _RING)
     rings = np.array([circle(r, z) for z, r in zip(height, radius, strict=True)])
-    set_mesh(view["structure"]["wall"], loft(rings, capped=False), RNA_COLOUR)
+    wall = loft(rings, capped=False)
+    set_mesh(view["structure"]["wall"], wall, np.tile(PLAIN, (len(wall.vertices), 1)))
     rna: RigidBodyRNA | RotorNacelleRNA = TypeAdapter(RigidBodyRNA | RotorNacelleRNA).validate_json(
         str(results.attrs["rotor_nacelle"])
     )
     for name, mesh in rna_meshes(rna, 2 * float(radius[-1])).items():
         set_mesh(view["structure"]["rna"][name], mesh, RNA_COLOUR)
+    draw_arrows(view, shown)
     mudline = float(results.attrs["mudline_m"])
     ground = surface_mesh(shown.x[[0, -1]], shown.y[[0, -1]], mudline)
     set_mesh(view["site"]["mudline"], ground, MUDLINE_COLOUR, opacity=0.5)
+    inside = height <= mudline + 1e-9
+    known = {"rim": [], "soil_radius": float(radius[inside].max(initial=0.0))}
     if results.attrs.get("sea") == "dry":
-        return {"rim": []}
+        return known
     level = float(results.attrs.get("water_level_m", 0.0))
     surface = surface_mesh(shown.x, shown.y, level)
     middle = np.tile(_SEA_COLOURS[1], (len(surface.vertices), 1))
     set_mesh(view["sea"]["surface"], surface, middle, opacity=0.78, gloss=70)
     rim = rim_of(len(shown.x), len(shown.y))
     set_mesh(view["sea"]["sides"], sides_mesh(surface, rim, mudline), WATER_COLOUR, opacity=0.16)
-    return {"rim": rim.tolist()}
+    return known | {"rim": rim.tolist()}
+
+
+def draw_arrows(view: Any, shown: Frames) -> None:
+    """Arrows of the load at the yaw bearing and of the soil's forces: upwards, of length 1."""
+    size = float(shown.height[-1] - shown.height[0])
+    if np.any(shown.top_force):
+        set_mesh(view["arrows"]["top"], arrow(_TOP_WIDTH * size), TOP_COLOUR)
+    for k in range(len(shown.soil_height)):
+        set_mesh(view["arrows"]["soil"][str(k)], arrow(_SOIL_WIDTH * size), SOIL_COLOUR)
+
+
+def arrow(radius: float) -> Mesh:
+    """An arrow along z from 0 to 1, which the page stretches to its length; radius in m."""
+    rings = [(radius, 0.0), (radius, 0.8), (2.6 * radius, 0.8), (1e-3 * radius, 1.0)]
+    return loft(np.array([circle(r, z) for r, z in rings]))
 
 
 def surface_mesh(x: Array, y: Array, z: float) -> Mesh:
@@ -197,6 +228,53 @@ def _motion(shown: Frames, level: float) -> dict[str, Any]:
         "sea": None if sea is None else _packed(np.round(sea / unit), "<i2"),
         "unit": unit,
         "colours": _SEA_COLOURS.tolist(),
+        **_loads(shown),
+    }
+
+
+def _loads(shown: Frames) -> dict[str, Any]:
+    """Bending moment as shares of its largest, and forces as arrows in m."""
+    length = ARROW_SHARE * float(shown.height[-1] - shown.height[0])
+    bending, top, soil = (
+        largest(part) for part in (shown.bending, shown.top_force, shown.soil_force)
+    )
+    shares = shown.bending / (bending or 1.0)
+    return {
+        "bending": _packed(np.round(65535 * shares), "<u2"),
+        "ramp": colour_ramp().tolist(),
+        "plain": PLAIN.tolist(),
+        "top_force": np.round(shown.top_force / 1e6, 4).tolist() if top else None,
+        "top_length": length / (top / 1e6 or 1.0),
+        "soil_height": shown.soil_height.tolist(),
+        "soil_force": _packed(shown.soil_force * (length / (soil or 1.0)), "<f4"),
+    }
+
+
+def largest(values: Array) -> float:
+    """Largest size of vectors (f, ..., 3) or of plain values (f, m); zero of none."""
+    sizes = np.linalg.norm(values, axis=-1) if values.shape[-1] == 3 else np.abs(values)
+    return float(sizes.max(initial=0.0))
+
+
+def colour_ramp() -> Array:
+    """(64, 3) red, green and blue of shares from 0 to 1."""
+    return np.round(mpl.colormaps[COLOUR_MAP](np.linspace(0, 1, 64))[:, :3], 4)
+
+
+def _loads_in_words(results: xr.Dataset, shown: Frames) -> dict[str, str]:
+    """What colours and arrows mean, and how large their largest is."""
+    bending, top, soil = (
+        largest(part) for part in (shown.bending, shown.top_force, shown.soil_force)
+    )
+    steps = ", ".join(mpl.colors.to_hex(colour) for colour in colour_ramp()[::4])
+    return {
+        "gradient": steps,
+        "bending": f"{number(bending / 1e6, 3)} MN m",
+        "top": f"applied tower-top load, at most {number(top / 1e6, 3)} MN" if top else "",
+        "top_colour": f"#{TOP_COLOUR:06x}",
+        "top_note": str(results.attrs.get("tower_top_load_holds", "")),
+        "soil": f"soil on the pile, at most {number(soil / 1e6, 3)} MN a node" if soil else "",
+        "soil_colour": f"#{SOIL_COLOUR:06x}",
     }
 
 
@@ -209,6 +287,8 @@ def _charts(shown: Frames) -> list[dict[str, str]]:
     channels = [("tower top along x, m", shown.displacement[:, -1, 0])]
     if np.any(shown.elevation):
         channels.insert(0, ("surface at the axis, m", shown.elevation))
+    if np.any(shown.top_force):
+        channels.append(("tower-top load along x, MN", shown.top_force[:, 0] / 1e6))
     channels.append(("fore-aft moment, MN m", shown.moment[:, 1] / 1e6))
     result = []
     for name, values in channels:

@@ -5,7 +5,9 @@ function bytes(text) {
 // Far enough for the whole structure to fit into a window of any shape. In the viewer y is up.
 function placeCamera(viewer) {
   const camera = viewer.camera, half = Math.tan(look.field_of_view_deg * Math.PI / 360);
-  const aspect = window.innerWidth / window.innerHeight;
+  // A wide window has room beside the card: the picture is fitted in and centred there.
+  const room = window.innerWidth > 900 ? 1 - 336 / window.innerWidth : 1;
+  const aspect = room * window.innerWidth / window.innerHeight;
   const distance = Math.max(look.half_height / half, look.half_breadth / (half * aspect)) + 0.4 * look.half_breadth;
   const [x, y, z] = look.from;
   camera.fov = look.field_of_view_deg;
@@ -14,7 +16,21 @@ function placeCamera(viewer) {
   viewer.controls.target.set(0, look.centre, 0);
   camera.position.set(x * distance, look.centre + z * distance, -y * distance);
   viewer.controls.update();
-  // A wide window has room beside the card: the middle of the picture moves there.
-  if (window.innerWidth > 900) camera.setViewOffset(1, 1, -0.1, 0, 1, 1);
+  if (room < 1) camera.setViewOffset(1, 1, (room - 1) / 2, 0, 1, 1);
+  else camera.clearViewOffset();
   viewer.set_3d_pane_size();
 }
+
+// Put a tag beside a point of the scene, [x, y, z] with z up; hide it where there is none.
+function placeTag(viewer, tag, point) {
+  tag.hidden = point === null;
+  if (point === null) return;
+  const camera = viewer.camera, place = camera.position.clone().set(point[0], point[2], -point[1]);
+  camera.updateMatrixWorld();
+  place.project(camera);
+  tag.style.left = (place.x + 1) / 2 * window.innerWidth + "px";
+  tag.style.top = (1 - place.y) / 2 * window.innerHeight + "px";
+}
+
+const element = id => document.getElementById(id);
+const minus = text => text.replace("-", "\u2212");
