@@ -5,13 +5,15 @@ from __future__ import annotations
 import json
 import logging
 import sys
+import webbrowser
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
 import typer
+import xarray as xr
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.table import Table
@@ -24,16 +26,20 @@ from offwind_pin.campaign.case import load_case
 from offwind_pin.campaign.export import export_urdf
 from offwind_pin.campaign.output import check_writable
 from offwind_pin.campaign.overview import Overview, overview
-from offwind_pin.campaign.run import run_case
+from offwind_pin.campaign.run import modes_to_dataset, run_case
 from offwind_pin.campaign.soil_files import write_soil
 from offwind_pin.campaign.soil_overview import SoilOverview, soil_overview
 from offwind_pin.campaign.summaries import summarise_damping, summarise_modes, summarise_static
 from offwind_pin.display.animation import animate
+from offwind_pin.display.pictures import check_frames, check_still
+from offwind_pin.display.serve import address, page_server
 from offwind_pin.display.soil_page import soil_tables
+from offwind_pin.display.viewing import FPS, View
 from offwind_pin.dynamics.sea import StillWater
 from offwind_pin.dynamics.system import System
 from offwind_pin.errors import InputError, InterruptedSimulation, SolverError
 from offwind_pin.results.files import write_text
+from offwind_pin.results.reading import open_results
 from offwind_pin.structure.chain import Element
 from offwind_pin.turbines.base import Array
 from offwind_pin.turbines.reader import load_turbine
@@ -209,6 +215,78 @@ def animate_command(
     Console().print(f"Wrote {html}", soft_wrap=True)
 
 
+@app.command("view")
+def view_command(
+    source: Annotated[
+        str,
+        typer.Argument(help="Directory of a run or its results.nc; or a turbine, for its modes."),
+    ],
+    html: Annotated[Path | None, typer.Option(help="Write the page into a file.")] = None,
+    still: Annotated[Path | None, typer.Option(help="Write a picture: .png or .svg.")] = None,
+    frames: Annotated[
+        Path | None, typer.Option(help="New directory for numbered frames of a film.")
+    ] = None,
+    fps: Annotated[float, typer.Option(help="Frames a second.")] = FPS,
+    start: Annotated[float | None, typer.Option(help="Start of the part shown in s.")] = None,
+    duration: Annotated[float | None, typer.Option(help="Its duration in s.")] = None,
+    mode_list: Annotated[
+        str | None, typer.Option("--modes", help="Side by side, up to four: FA1,SS1,FA2,SS2.")
+    ] = None,
+    foundation: Annotated[
+        str, typer.Option(help="Of a turbine; results have their own.")
+    ] = "distributed_springs",
+    dry: Annotated[bool, typer.Option("--dry", help="A turbine without water.")] = False,  # noqa: FBT002
+    port: Annotated[int, typer.Option(help="By default any that is free.")] = 0,
+    browser: Annotated[bool, typer.Option(help="Open the page in a browser.")] = True,  # noqa: FBT002
+) -> None:
+    """Show results in motion: a page on this computer until Ctrl-C, or files."""
+    for option, path, example in (("--html", html, "view.html"), ("--still", still, "view.png")):
+        if path is not None:
+            _check_target(option, path, example)
+    if still is not None:
+        check_still(still)
+    if frames is not None:
+        check_frames(frames)
+        check_writable(frames.parent)
+    labels = None if mode_list is None else [part.strip().upper() for part in mode_list.split(",")]
+    view = View(_results_of(source, foundation, dry=dry), start, duration, labels)
+    if html is not None:
+        write_text(html, view.page())
+        Console().print(f"Wrote {html}", soft_wrap=True)
+    if still is not None:
+        view.still(still)
+        Console().print(f"Wrote {still}", soft_wrap=True)
+    if frames is not None:
+        with _frames_progress() as progress:
+            view.film(frames, fps, progress)
+        Console().print(f"Wrote {frames}; a film of it:", soft_wrap=True)
+        pattern = frames / "frame_%05d.png"
+        film = f"ffmpeg -framerate {fps:g} -i {pattern} -pix_fmt yuv420p {frames.name}.mp4"
+        Console().print(film, soft_wrap=True, markup=False)
+    if (html, still, frames) == (None, None, None):
+        _serve(view.page(), port, browser=browser)
+
+
+def _results_of(source: str, foundation: str, *, dry: bool) -> xr.Dataset:
+    """Results read from a file; of a turbine its modes, the only thing that is solved here."""
+    path = Path(source)
+    if path.is_dir() or path.suffix == ".nc":
+        return open_results(path)
+    system = build(load_turbine(source), foundation, None if dry else StillWater())
+    return modes_to_dataset(system, modes(system, min(10, system.nv)))
+
+
+def _serve(page: str, port: int, *, browser: bool) -> None:
+    """Serve a page on 127.0.0.1 until Ctrl-C."""
+    with page_server(page, port) as server:
+        url = address(server)
+        print(f"{url}   (Ctrl-C ends)", flush=True)  # noqa: T201
+        if browser:
+            webbrowser.open(url)
+        with suppress(KeyboardInterrupt):
+            server.serve_forever()
+
+
 @app.command()
 def urdf(
     turbine: TurbineArgument,
@@ -295,6 +373,25 @@ def _simulation_progress() -> Iterator[Callable[[float, float], None]]:
     finally:
         if bar.tasks:
             bar.stop()
+
+
+@contextmanager
+def _frames_progress() -> Iterator[Callable[[int, int], None]]:
+    """Progress bar on standard error with the frames written."""
+    bar = Progress(
+        BarColumn(),
+        TextColumn("frame {task.completed:.0f} of {task.total:.0f}"),
+        TimeRemainingColumn(),
+        console=Console(stderr=True),
+        transient=True,
+    )
+    with bar:
+        task = bar.add_task("", total=1)
+
+        def update(written: int, count: int) -> None:
+            bar.update(task, completed=written, total=count)
+
+        yield update
 
 
 @contextmanager

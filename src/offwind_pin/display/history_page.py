@@ -41,14 +41,14 @@ _RING = 2.5
 """Largest distance in m of the rings of the wall."""
 _FACTORS = (1, 2, 5, 10, 20, 50, 100)
 """By which displacements may be drawn larger than they are."""
-_SEA_COLOURS = np.array([[20, 72, 128], [61, 143, 209], [214, 238, 250]]) / 255
+SEA_COLOURS = np.array([[20, 72, 128], [61, 143, 209], [214, 238, 250]]) / 255
 """Red, green and blue of the sea at its lowest, its mean and its highest point drawn."""
 _SHOWN_SHARE = 0.04
 """Of the height of the structure, which the largest displacement is not drawn beyond."""
 ARROW_SHARE = 0.24
 """Of the height of the structure: length of the arrow of the largest force of each kind."""
 TOP_COLOUR, SOIL_COLOUR = 0xD55E00, 0x8C1D40
-_TOP_WIDTH, _SOIL_WIDTH = 0.006, 0.0012
+TOP_WIDTH, SOIL_WIDTH = 0.006, 0.0012
 PLAIN = np.array([0xE9, 0xEC, 0xEF]) / 255
 """Of the wall where no moment colours it."""
 _SPEEDS = (0.25, 0.5, 1, 2, 5, 10)
@@ -98,19 +98,19 @@ def render_time_history(results: xr.Dataset, start: float = 0.0, duration: float
             case=str(results.attrs.get("case", "time history")),
             waves=str(results.attrs.get("waves", "")) if wet else "",
             water=f"sea, mean level {fixed(level, 2, sign=level != 0)} m" if wet else "",
-            sea_gradient=", ".join(mpl.colors.to_hex(colour) for colour in _SEA_COLOURS),
+            sea_gradient=", ".join(mpl.colors.to_hex(colour) for colour in SEA_COLOURS),
             left_out=shown.sea is None and bool(np.any(shown.elevation)),
             surrogates=[text for text in told.split(" | ") if text not in ("", "none")],
             speeds=_SPEEDS,
             loads=_loads_in_words(results, shown),
             factors=_FACTORS,
-            factor=_factor(shown),
+            factor=displacement_factor(shown),
             charts=_charts(shown),
             mudline_colour=f"#{MUDLINE_COLOUR:06x}",
             breadth=_CHART[0],
             height=_CHART[1],
             motion=_motion(shown, level) | scene,
-            look=_look(results, shown),
+            look=history_look(results, shown),
             commands=[base64.b64encode(command).decode() for command in recorder.commands],
             licence=Markup(viewer_licence().replace("*/", "* /")),  # noqa: S704 (from the package)
             viewer_script=Markup(viewer_script()),  # noqa: S704 (from the package)
@@ -150,7 +150,7 @@ def draw_scene(view: Any, results: xr.Dataset, shown: Frames) -> dict[str, Any]:
         return known
     level = float(results.attrs.get("water_level_m", 0.0))
     surface = surface_mesh(shown.x, shown.y, level)
-    middle = np.tile(_SEA_COLOURS[1], (len(surface.vertices), 1))
+    middle = np.tile(SEA_COLOURS[1], (len(surface.vertices), 1))
     set_mesh(view["sea"]["surface"], surface, middle, opacity=0.78, gloss=70)
     rim = rim_of(len(shown.x), len(shown.y))
     set_mesh(view["sea"]["sides"], sides_mesh(surface, rim, mudline), WATER_COLOUR, opacity=0.16)
@@ -161,9 +161,9 @@ def draw_arrows(view: Any, shown: Frames) -> None:
     """Arrows of the load at the yaw bearing and of the soil's forces: upwards, of length 1."""
     size = float(shown.height[-1] - shown.height[0])
     if np.any(shown.top_force):
-        set_mesh(view["arrows"]["top"], arrow(_TOP_WIDTH * size), TOP_COLOUR)
+        set_mesh(view["arrows"]["top"], arrow(TOP_WIDTH * size), TOP_COLOUR)
     for k in range(len(shown.soil_height)):
-        set_mesh(view["arrows"]["soil"][str(k)], arrow(_SOIL_WIDTH * size), SOIL_COLOUR)
+        set_mesh(view["arrows"]["soil"][str(k)], arrow(SOIL_WIDTH * size), SOIL_COLOUR)
 
 
 def arrow(radius: float) -> Mesh:
@@ -206,7 +206,7 @@ def sides_mesh(surface: Mesh, rim: NDArray[np.intp], bottom: float) -> Mesh:
     return Mesh(np.concatenate([top, below]), np.concatenate(faces))
 
 
-def _factor(shown: Frames) -> int:
+def displacement_factor(shown: Frames) -> int:
     """The largest enlargement that keeps the displacements within their share of the height."""
     largest = float(np.linalg.norm(shown.displacement, axis=2).max())
     room = _SHOWN_SHARE * float(shown.height[-1] - shown.height[0])
@@ -227,7 +227,7 @@ def _motion(shown: Frames, level: float) -> dict[str, Any]:
         "level": level,
         "sea": None if sea is None else _packed(np.round(sea / unit), "<i2"),
         "unit": unit,
-        "colours": _SEA_COLOURS.tolist(),
+        "colours": SEA_COLOURS.tolist(),
         **_loads(shown),
     }
 
@@ -303,7 +303,7 @@ def _charts(shown: Frames) -> list[dict[str, str]]:
     return result
 
 
-def _look(results: xr.Dataset, shown: Frames) -> dict[str, Any]:
+def history_look(results: xr.Dataset, shown: Frames) -> dict[str, Any]:
     """Where the camera stands, for the page's script: directions as numbers, lengths in m."""
     rna: RigidBodyRNA | RotorNacelleRNA = TypeAdapter(RigidBodyRNA | RotorNacelleRNA).validate_json(
         str(results.attrs["rotor_nacelle"])

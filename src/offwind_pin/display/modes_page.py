@@ -79,7 +79,7 @@ def render_modes(results: xr.Dataset, labels: list[str] | None = None) -> str:
             most=PLACES,
             labels=shown.label,
             modes=_modes(shown) | {"ramp": ramp.tolist(), "plain": PLAIN.tolist(), "first": first},
-            look=_look(results, shown),
+            look=modes_look(results, shown),
             commands=[base64.b64encode(command).decode() for command in recorder.commands],
             licence=Markup(viewer_licence().replace("*/", "* /")),  # noqa: S704 (from the package)
             viewer_script=Markup(viewer_script()),  # noqa: S704 (from the package)
@@ -143,12 +143,12 @@ def _modes(shown: Shapes) -> dict[str, Any]:
     }
 
 
-def _look(results: xr.Dataset, shown: Shapes) -> dict[str, Any]:
+def modes_look(results: xr.Dataset, shown: Shapes) -> dict[str, Any]:
     """Where the camera stands, for the page's script: directions as numbers, lengths in m."""
     meshes = rna_meshes(rotor_nacelle(results), 2 * float(shown.radius[-1]))
     points = np.concatenate([mesh.vertices for mesh in meshes.values()])
     size = float(shown.height[-1] - shown.height[0])
-    low = float(shown.height[0]) - 0.06 * size
+    low = min(float(shown.height[0]) - 0.05 * size, float(results.attrs["mudline_m"]) - 0.08 * size)
     high = float(shown.height[-1] + points[:, 2].max())
     azimuth, elevation = np.radians(VIEW_DEG)
     level = np.cos(elevation)
