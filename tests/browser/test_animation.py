@@ -2,14 +2,7 @@
 
 from __future__ import annotations
 
-import signal
-import subprocess
-import sys
-import urllib.error
-import urllib.request
-from collections.abc import Iterator
 from pathlib import Path
-from urllib.parse import urlsplit
 
 import numpy as np
 import pytest
@@ -25,8 +18,6 @@ from offwind_pin.display.motion import FRAMES, mode_motion
 from offwind_pin.display.scene import CYCLE
 
 pytestmark = pytest.mark.browser
-
-SCRIPT = Path(__file__).parents[2] / "viz" / "mode_shapes.py"
 
 
 @pytest.fixture(scope="module")
@@ -184,108 +175,3 @@ def test_overlay_tells_the_mode(
         assert inside
     finally:
         driver.set_window_size(1200, 900)
-
-
-# The viewer over http
-
-
-@pytest.fixture(scope="module")
-def live() -> Iterator[tuple[subprocess.Popen[str], str]]:
-    """viz/mode_shapes.py at work: the process, and the address that it printed."""
-    command = [sys.executable, str(SCRIPT), "oc6_phase2", "--foundation", "clamped"]
-    process = subprocess.Popen(
-        [*command, "--mode", "SS2", "-n", "5", "--no-browser"],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        # A suite that runs in the background hands down an ignored interrupt.
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
-    )
-    assert process.stdout is not None
-    line = process.stdout.readline()
-    try:
-        yield process, line.partition(" ")[0]
-    finally:
-        if process.poll() is None:
-            process.kill()
-        process.communicate()
-
-
-def test_live_viewer_shows_modes_and_links(
-    driver: webdriver.Chrome, live: tuple[subprocess.Popen[str], str]
-) -> None:
-    """Over http the same page appears without errors; a link leads to another mode."""
-    _, url = live
-    assert urlsplit(url).hostname == "127.0.0.1"
-    visit = Visit(driver, url)
-    assert drawn_share(frame(driver, 0.25)) > 0.02
-    assert "second side-side mode" in driver.find_element(By.ID, "card").text
-    driver.find_element(By.LINK_TEXT, "T1").click()
-    wait(
-        driver,
-        "return document.title.includes('T1') && !!window.viewer"
-        " && viewer.animator.actions.length > 0",
-    )
-    assert "first torsion mode" in driver.find_element(By.ID, "card").text
-    one, other = frame(driver, 0.25), frame(driver, 0.75)
-    assert changed_share(one, other) > 0.01
-    visit.collect()
-    assert visit.errors == []
-    assert visit.places() <= {"http:127.0.0.1", "data:", "blob:"}
-
-
-def test_live_viewer_knows_no_other_path(live: tuple[subprocess.Popen[str], str]) -> None:
-    """Only modes have pages: anything else is 404."""
-    _, url = live
-    base = url.rpartition("/")[0]
-    with urllib.request.urlopen(f"{base}/", timeout=PATIENCE) as answer:
-        assert b"second side-side mode" in answer.read()
-    for path in ("FA9", "favicon.ico", "../pyproject.toml", "SS2/x", "static/"):
-        with pytest.raises(urllib.error.HTTPError) as refused:
-            urllib.request.urlopen(f"{base}/{path}", timeout=PATIENCE)
-        assert refused.value.code == 404
-        refused.value.close()
-
-
-def listening(tables: list[str], inodes: set[str]) -> list[str]:
-    """Local addresses (hexadecimal, as the kernel writes them) of listening sockets."""
-    rows = [line.split() for table in tables for line in table.splitlines()[1:]]
-    return [row[1].partition(":")[0] for row in rows if row[3] == "0A" and row[9] in inodes]
-
-
-def test_listening_sockets_are_found() -> None:
-    """Negative control: a socket bound to every interface is told from one bound to this host."""
-    head = "sl local_address rem_address st tx_queue:rx_queue tr:tm retrnsmt uid timeout inode"
-    row = "   0: {}:1F90 00000000:0000 {} 00000000:00000000 00:00000000 00000000  1000 0 {} 1"
-    table = "\n".join(
-        [
-            head,
-            row.format("0100007F", "0A", 7),
-            row.format("00000000", "0A", 8),
-            row.format("0100007F", "01", 9),
-        ]
-    )
-    assert listening([table], {"7", "9"}) == ["0100007F"]
-    assert listening([table], {"7", "8"}) == ["0100007F", "00000000"]
-
-
-@pytest.mark.skipif(not Path("/proc/net/tcp").exists(), reason="reads the tables of Linux")
-def test_live_viewer_listens_on_this_computer_only(
-    live: tuple[subprocess.Popen[str], str],
-) -> None:
-    """Its one listening socket is bound to 127.0.0.1."""
-    process, _ = live
-    proc = Path("/proc") / str(process.pid)
-    links = [str(entry.readlink()) for entry in (proc / "fd").iterdir()]
-    inodes = {link[len("socket:[") : -1] for link in links if link.startswith("socket:[")}
-    tables = [path.read_text() for path in (proc / "net").glob("tcp*")]
-    assert listening(tables, inodes) == ["0100007F"]  # 127.0.0.1, lowest byte first
-
-
-def test_live_viewer_ends_at_ctrl_c(live: tuple[subprocess.Popen[str], str]) -> None:
-    """An interrupt ends it with status 0 and nothing to say. The last test: the viewer is gone."""
-    process, _ = live
-    process.send_signal(signal.SIGINT)
-    _, complaints = process.communicate(timeout=PATIENCE)
-    assert process.returncode == 0
-    assert complaints == ""

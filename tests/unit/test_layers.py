@@ -58,7 +58,7 @@ def _forbidden(room: str, imports: set[str]) -> set[str]:
     wrong = set()
     for name in imports:
         parts = name.split(".")
-        if parts[0] in {"sim", "viz"} or (parts[0] == "pinocchio" and room not in PINOCCHIO):
+        if parts[0] == "sim" or (parts[0] == "pinocchio" and room not in PINOCCHIO):
             wrong.add(name)
         if parts[0] != "offwind_pin" or room not in ALLOWED:
             continue

@@ -6,11 +6,9 @@ import base64
 import itertools
 import json
 import re
-import runpy
 import socket
 from collections import Counter
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
@@ -416,15 +414,6 @@ def test_page_tells_what_it_shows(
     assert "surrogate" not in other.partition("<section")[2].partition("</section>")[0]
 
 
-def test_links_only_where_pages_are_served(
-    distributed_wet: ow.System, distributed_modes: ow.ModalResult, fa2_page: str
-) -> None:
-    """A file has no links to modes that are not there."""
-    served = animate(distributed_wet, distributed_modes, "T1", links=True)
-    assert re.findall(r'<a href="/(\w+)"', served) == distributed_modes.label
-    assert "<a " not in fa2_page
-
-
 def test_names_cannot_break_the_page(coupled_wet: ow.System) -> None:
     """What a file calls a turbine is text, not markup."""
     turbine = coupled_wet.turbine.model_copy(update={"name": "<script>alert(1)</script>"})
@@ -439,23 +428,3 @@ def test_unknown_mode_is_refused(
     """The message lists what there is."""
     with pytest.raises(ow.InputError, match=r"FA9.*FA2"):
         animate(distributed_wet, distributed_modes, "FA9")
-
-
-def test_script_does_nothing_on_import(capsys: pytest.CaptureFixture[str]) -> None:
-    """viz/mode_shapes.py defines, and runs only as a script."""
-    path = Path(__file__).parents[2] / "viz" / "mode_shapes.py"
-    names = runpy.run_path(str(path), run_name="imported")
-    assert callable(names["main"])
-    assert capsys.readouterr().out == ""
-
-
-def test_script_tells_what_is_wrong(capsys: pytest.CaptureFixture[str]) -> None:
-    """A mode that is not there: one message, exit status 2."""
-    path = Path(__file__).parents[2] / "viz" / "mode_shapes.py"
-    main = runpy.run_path(str(path), run_name="imported")["main"]
-    with pytest.raises(SystemExit) as stop:
-        main(["oc6_phase2", "--foundation", "clamped", "--mode", "XX1", "--no-browser"])
-    assert stop.value.code == 2
-    message = capsys.readouterr().err
-    assert "XX1" in message
-    assert "FA1" in message

@@ -34,7 +34,7 @@ _VIEW_DEG = {"FA": (-124.0, 7.0), "SS": (-150.0, 7.0), "T": (-140.0, 14.0), "V":
 from upwind, with the rotor turned enough to be told from a line."""
 
 
-def animate(system: System, result: ModalResult, label: str, *, links: bool = False) -> str:
+def animate(system: System, result: ModalResult, label: str) -> str:
     """HTML page that shows one mode of a system in motion; it needs no server and no network.
 
     The peak is drawn as 8 % of the structure's height, or as less where the axis would tilt by more
@@ -44,7 +44,6 @@ def animate(system: System, result: ModalResult, label: str, *, links: bool = Fa
     ----------
     result : modes of this system
     label : which of them, such as ``"FA2"``
-    links : offer the other modes as links to ``/FA1``, ``/SS1``, ..., for a page that is served
 
     Raises
     ------
@@ -65,7 +64,6 @@ def animate(system: System, result: ModalResult, label: str, *, links: bool = Fa
         name=mode_name(label),
         frequency_hz=float(result.frequency_hz[index]),
         damping_ratio=float(result.damping_ratio[index]),
-        modes=result.label if links else [],
         cycle=CYCLE,
         look=_look(system, motion),
         commands=[base64.b64encode(command).decode() for command in recorder.commands],

@@ -47,6 +47,7 @@ _SHOWN_SHARE = 0.04
 """Of the height of the structure, which the largest displacement is not drawn beyond."""
 ARROW_SHARE = 0.24
 """Of the height of the structure: length of the arrow of the largest force of each kind."""
+_ARROW_FACETS = 10
 TOP_COLOUR, SOIL_COLOUR = 0xD55E00, 0x8C1D40
 TOP_WIDTH, SOIL_WIDTH = 0.006, 0.0012
 PLAIN = np.array([0xE9, 0xEC, 0xEF]) / 255
@@ -169,7 +170,7 @@ def draw_arrows(view: Any, shown: Frames) -> None:
 def arrow(radius: float) -> Mesh:
     """An arrow along z from 0 to 1, which the page stretches to its length; radius in m."""
     rings = [(radius, 0.0), (radius, 0.8), (2.6 * radius, 0.8), (1e-3 * radius, 1.0)]
-    return loft(np.array([circle(r, z) for r, z in rings]))
+    return loft(np.array([circle(r, z, _ARROW_FACETS) for r, z in rings]))
 
 
 def surface_mesh(x: Array, y: Array, z: float) -> Mesh:
