@@ -13,6 +13,7 @@ from pydantic import TypeAdapter
 
 from offwind_pin.analysis.modal import mode_family, mode_name
 from offwind_pin.display.history_page import PLAIN, colour_ramp
+from offwind_pin.display.motion import PEAK_SHARE
 from offwind_pin.display.page import environment
 from offwind_pin.display.recorder import Recorder, viewer_licence, viewer_script
 from offwind_pin.display.scene import (
@@ -151,14 +152,17 @@ def modes_look(results: xr.Dataset, shown: Shapes) -> dict[str, Any]:
     low = min(float(shown.height[0]) - 0.05 * size, float(results.attrs["mudline_m"]) - 0.08 * size)
     high = float(shown.height[-1] + points[:, 2].max())
     azimuth, elevation = np.radians(VIEW_DEG)
+    right = np.array([-np.sin(azimuth), np.cos(azimuth)])
+    breadth = float(np.abs(points[:, :2] @ right).max()) + PEAK_SHARE * size
     level = np.cos(elevation)
     return {
         "field_of_view_deg": _FIELD_OF_VIEW_DEG,
         "from": [level * np.cos(azimuth), level * np.sin(azimuth), np.sin(elevation)],
         "centre": (low + high) / 2,
         "half_height": (high - low) / 2,
-        "half_breadth": max(float(np.abs(points[:, :2]).max()), _DISC * size),
-        "right": [-np.sin(azimuth), np.cos(azimuth)],
+        "half_breadth": max(breadth, _DISC * size),
+        "depth": breadth,
+        "right": right.tolist(),
         "spacing": SPACING * size,
         "low": low,
     }

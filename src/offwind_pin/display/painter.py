@@ -73,7 +73,7 @@ def paint(camera: Camera, surfaces: Sequence[Surface]) -> tuple[Array, Array]:
         turn = edge[:, 0, 0] * edge[:, 1, 1] - edge[:, 0, 1] * edge[:, 1, 0]
         shown = turn > 0 if surface.opacity == 1 else turn != 0
         normal = np.cross(triangle[:, 1] - triangle[:, 0], triangle[:, 2] - triangle[:, 0])
-        normal *= np.where(turn < 0, -1.0, 1.0)[:, None]
+        normal = np.where(turn < 0, -1.0, 1.0)[:, None] * normal
         bright = _brightness(normal[shown])
         plain = np.broadcast_to(surface.colour, surface.mesh.vertices.shape)
         face = plain[surface.mesh.faces[shown]].mean(axis=1) * bright[:, None]

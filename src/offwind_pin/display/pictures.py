@@ -278,7 +278,13 @@ class HistoryPicture(Picture):
         for i, (line, colour) in enumerate(zip(lines, colours, strict=True)):
             self.text(left, 0.12 - 0.03 * i, line, fontsize=8, color=colour)
         if attrs.get("surrogates", "none") not in ("", "none"):
-            self.text(left, 0.045, "with surrogates: see the report", fontsize=8, color="#8a5d00")
+            self.text(
+                left,
+                0.045,
+                "a surrogate is at work here: see the page",
+                fontsize=8,
+                color="#8a5d00",
+            )
 
 
 class ModesPicture(Picture):
@@ -371,7 +377,13 @@ class ModesPicture(Picture):
         colour_bar(self, "displacement (torsion: rotation) over its peak", 0.20)
         self.text(left, 0.13, "A mode has no size of its own.", fontsize=8, color=_FAINT)
         if attrs.get("surrogates", "none") not in ("", "none"):
-            self.text(left, 0.045, "with surrogates: see the report", fontsize=8, color="#8a5d00")
+            self.text(
+                left,
+                0.045,
+                "a surrogate is at work here: see the page",
+                fontsize=8,
+                color="#8a5d00",
+            )
 
 
 def colour_bar(picture: Picture, title: str, height: float) -> None:

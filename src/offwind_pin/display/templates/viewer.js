@@ -8,7 +8,7 @@ function placeCamera(viewer) {
   // A wide window has room beside the card: the picture is fitted in and centred there.
   const room = window.innerWidth > 900 ? 1 - 336 / window.innerWidth : 1;
   const aspect = room * window.innerWidth / window.innerHeight;
-  const distance = Math.max(look.half_height / half, look.half_breadth / (half * aspect)) + 0.4 * look.half_breadth;
+  const distance = Math.max(look.half_height / half, look.half_breadth / (half * aspect)) + 0.4 * (look.depth || look.half_breadth);
   const [x, y, z] = look.from;
   camera.fov = look.field_of_view_deg;
   camera.near = distance / 100;
