@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import logging
+import shlex
 import sys
 import webbrowser
 from collections.abc import Callable, Iterator, Sequence
@@ -260,8 +261,10 @@ def view_command(
         with _frames_progress() as progress:
             view.film(frames, fps, progress)
         Console().print(f"Wrote {frames}; a film of it:", soft_wrap=True)
-        pattern = frames / "frame_%05d.png"
-        film = f"ffmpeg -framerate {fps:g} -i {pattern} -pix_fmt yuv420p {frames.name}.mp4"
+        pattern, name = (
+            shlex.quote(str(path)) for path in (frames / "frame_%05d.png", frames.name)
+        )
+        film = f"ffmpeg -framerate {fps:g} -i {pattern} -pix_fmt yuv420p {name}.mp4"
         Console().print(film, soft_wrap=True, markup=False)
     if (html, still, frames) == (None, None, None):
         _serve(view.page(), port, browser=browser)

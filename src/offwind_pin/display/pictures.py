@@ -244,7 +244,7 @@ class HistoryPicture(Picture):
         self.text(left, 0.94, case, fontsize=_fitting(case, 15, 24), weight="bold")
         waves = "" if self._dry else str(attrs.get("waves", ""))
         self.text(left, 0.895, waves, fontsize=_fitting(waves, 9, 48), color=_FAINT)
-        self._now = self.text(left, 0.86, "", fontsize=10)
+        self._now = self.text(left, 0.86, "", fontsize=9.5)
         time, shown = self.shown.time, self.shown
         curves = [
             ("surface at the axis, m", shown.elevation),
