@@ -248,6 +248,32 @@ class TestView:
         assert "soil on the pile" not in older
         assert "bending moment" in older
 
+    def test_loads_that_the_channel_does_not_hold_are_told(self, history: xr.Dataset) -> None:
+        note = "prescribed loads; a rotor's thrust is not among them"
+        told = history.assign_attrs(tower_top_load_holds=note)
+        assert "is of prescribed loads" in View(told, 4.0, 4.0).page()
+        without = told.assign(tower_top_load=0 * told.tower_top_load)
+        page = View(without, 4.0, 4.0).page()
+        assert "would be of prescribed loads" in page
+        assert "applied tower-top load" not in page
+
+    @pytest.mark.parametrize(
+        ("foundation", "sea"),
+        [("clamped", None), ("coupled_springs", ow.StillWater(water_level=2.0))],
+    )
+    def test_with_little_to_show(
+        self, undamped: ow.Turbine, tmp_path: Path, foundation: str, sea: ow.StillWater | None
+    ) -> None:
+        """No load, no soil, a sea that is dry or does not move: page, still and film all the same."""
+        data = ow.simulate(ow.build(undamped, foundation, sea, elements=6), 1.0, 0.05)
+        view = View(data)
+        view.still(tmp_path / "a.png")
+        view.film(tmp_path / "film", 1)
+        page = view.page()
+        assert '"top_force": null' in page
+        assert '"soil_height": []' in page
+        assert ("+2.00 m" in page) == (sea is not None)
+
     def test_names_are_escaped(self, modal: xr.Dataset) -> None:
         hostile = modal.assign_attrs(
             case="</script><script>alert(1)</script>", turbine='"><img src=x>'
