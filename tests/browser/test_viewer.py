@@ -323,6 +323,19 @@ class TestHistory:
         )
         assert driver.execute_script(step) == pytest.approx(0.5)
 
+    def test_dry_without_load_or_soil(
+        self, driver: webdriver.Chrome, undamped: ow.Turbine, tmp_path: Path
+    ) -> None:
+        """What is not there is not missed."""
+        data = ow.simulate(ow.build(undamped, "clamped", elements=6), 2.0, 0.05)
+        time_history_page(data, tmp_path / "dry.html", 0.0, 2.0)
+        visit = Visit(driver, (tmp_path / "dry.html").as_uri(), ready=READY)
+        drag(driver, "time", 0.5)
+        assert drawn_share(picture(driver)) > 0.02
+        assert not driver.find_element(By.ID, "load").is_displayed()
+        visit.collect()
+        assert visit.errors == []
+
 
 # Served
 

@@ -289,7 +289,7 @@ def _charts(shown: Frames) -> list[dict[str, str]]:
     if np.any(shown.elevation):
         channels.insert(0, ("surface at the axis, m", shown.elevation))
     if np.any(shown.top_force):
-        channels.append(("tower-top load along x, MN", shown.top_force[:, 0] / 1e6))
+        channels.append(top_curve(shown))
     channels.append(("fore-aft moment, MN m", shown.moment[:, 1] / 1e6))
     result = []
     for name, values in channels:
@@ -304,15 +304,24 @@ def _charts(shown: Frames) -> list[dict[str, str]]:
     return result
 
 
+def top_curve(shown: Frames) -> tuple[str, Array]:
+    """Name and values (f,) in MN of the component of the tower-top load that grows largest."""
+    component = int(np.argmax(np.abs(shown.top_force).max(axis=0)))
+    return f"tower-top load along {'xyz'[component]}, MN", shown.top_force[:, component] / 1e6
+
+
 def history_look(results: xr.Dataset, shown: Frames) -> dict[str, Any]:
     """Where the camera stands, for the page's script: directions as numbers, lengths in m."""
     rna: RigidBodyRNA | RotorNacelleRNA = TypeAdapter(RigidBodyRNA | RotorNacelleRNA).validate_json(
         str(results.attrs["rotor_nacelle"])
     )
     points = np.concatenate([mesh.vertices for mesh in rna_meshes(rna, 6.0).values()])
-    low, high = float(shown.height[0]), float(shown.height[-1] + points[:, 2].max())
     azimuth, elevation = np.radians(_VIEW_DEG)
     level = np.cos(elevation)
+    # The corner of the mudline nearest to the camera appears below its middle, and enlarged.
+    corner = float(shown.x[-1]) * (abs(np.cos(azimuth)) + abs(np.sin(azimuth)))
+    ground = float(results.attrs["mudline_m"]) - 1.5 * corner * np.sin(elevation)
+    low, high = min(float(shown.height[0]), ground), float(shown.height[-1] + points[:, 2].max())
     return {
         "field_of_view_deg": _FIELD_OF_VIEW_DEG,
         "from": [level * np.cos(azimuth), level * np.sin(azimuth), np.sin(elevation)],

@@ -36,6 +36,7 @@ from offwind_pin.display.history_page import (
     rim_of,
     sides_mesh,
     surface_mesh,
+    top_curve,
 )
 from offwind_pin.display.modes_page import modes_look, rotor_nacelle
 from offwind_pin.display.painter import Camera, Surface, paint
@@ -162,9 +163,8 @@ class HistoryPicture(Picture):
         surfaces.append(Surface(self._ground, _rgb(MUDLINE_COLOUR), 0.5))
         self.paint(surfaces + self._sea(at))
         moment = at(self.shown.moment)[1] / 1e6
-        self._now.set_text(
-            f"t = {now:.1f} s      $M_y$ at the mudline = {fixed(float(moment), 0)} MN m"
-        )
+        fore_aft = fixed(round(float(moment)) + 0.0, 0)
+        self._now.set_text(f"t = {now:.1f} s      $M_y$ at the mudline = {fore_aft} MN m")
         for cursor in self._cursors:
             cursor.set_xdata([now, now])
 
@@ -215,6 +215,8 @@ class HistoryPicture(Picture):
             return []
         length = ARROW_SHARE * self._size / self._largest[1]
         tip = self.camera.project(place + 1.06 * length * force)
+        leftwards = tip[0] < self.camera.project(place)[0]
+        self._tag.set_horizontalalignment("right" if leftwards else "left")
         self._tag.set_position((tip[0], tip[1]))
         self._tag.set_text(f"{np.linalg.norm(force) / 1e6:.2f} MN")
         return [Surface(drawn, _rgb(TOP_COLOUR))]
@@ -225,7 +227,9 @@ class HistoryPicture(Picture):
         x, y, sea = self.shown.x, self.shown.y, self.shown.sea
         if sea is None:
             level = surface_mesh(self._still, self._still, self._level)
-            return [Surface(level, SEA_COLOURS[1], 0.6)]
+            rim = rim_of(len(self._still), len(self._still))
+            sides = sides_mesh(level, rim, self._mudline)
+            return [Surface(sides, _rgb(WATER_COLOUR), 0.13), Surface(level, SEA_COLOURS[1], 0.6)]
         height = at(sea).ravel()
         mesh = surface_mesh(x, y, self._level)
         mesh.vertices[:, 2] += height
@@ -249,7 +253,7 @@ class HistoryPicture(Picture):
         curves = [
             ("surface at the axis, m", shown.elevation),
             ("tower top along x, m", shown.displacement[:, -1, 0]),
-            ("tower-top load along x, MN", shown.top_force[:, 0] / 1e6),
+            top_curve(shown),
             ("fore-aft moment at the mudline, MN m", shown.moment[:, 1] / 1e6),
         ]
         curves = [(name, values) for name, values in curves if np.any(values)]

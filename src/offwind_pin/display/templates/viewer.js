@@ -33,4 +33,4 @@ function placeTag(viewer, tag, point) {
 }
 
 const element = id => document.getElementById(id);
-const minus = text => text.replace("-", "\u2212");
+const minus = text => text.replace(/^-(?=0(\.0*)?$)/, "").replace("-", "\u2212");
