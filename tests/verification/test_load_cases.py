@@ -113,6 +113,10 @@ def test_lc51_summary_has_the_agreed_keys(lc51: tuple[dict[str, Any], Path]) -> 
     assert ALWAYS | agreed <= summary.keys()
     assert summary["simulated_s"] == 660.0
     assert summary["seed"] == 1
+    assert summary["mudline_moment_x_min_Nm"] < summary["mudline_moment_x_max_Nm"]
+    waves = summary["waves"]
+    assert 0.6 < waves["highest_crest_of_run_m"] <= waves["highest_crest_m"]
+    assert waves["lowest_trough_m"] <= waves["lowest_trough_of_run_m"] < -0.6
 
 
 def test_lc51_spectrum_peaks(lc51: tuple[dict[str, Any], Path]) -> None:

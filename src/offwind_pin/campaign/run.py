@@ -30,8 +30,10 @@ from offwind_pin.campaign.output import check_writable
 from offwind_pin.campaign.settling import settle, settling_variables, summarise_settling
 from offwind_pin.campaign.summaries import (
     moment_spectrum,
+    summarise_dampers,
     summarise_damping,
     summarise_modes,
+    summarise_run_s_waves,
     summarise_spectrum,
     summarise_static,
 )
@@ -241,7 +243,8 @@ def _solve_transient(
     }
     waves = wave_facts(system)
     if waves:
-        summary["waves"] = waves
+        summary["waves"] = waves | summarise_run_s_waves(data)
+    summary |= summarise_dampers(data)
     described = None if shaking is None else shaking.description(result)
     statics = {case.foundation: state}
     return CaseResult(summary, data, system, result, statics, spectrum, top.facts, described)

@@ -141,9 +141,16 @@ def statistics(report: CaseReport) -> list[tuple[str, str, list[float]]]:
         ("fore-aft moment at the mudline (y)", "MN m", mudline_moment(data, "y")),
         ("side-side moment at the mudline (x)", "MN m", mudline_moment(data, "x")),
         ("shear at the mudline along x", "MN", data.mudline_force.sel(direction="x") / 1e6),
-        ("applied tower-top force along x", "MN", data.tower_top_load.sel(component="Fx") / 1e6),
         ("wave elevation", "m", data.wave_elevation),
     ]
+    applied = data.tower_top_load.sel(component="Fx") / 1e6
+    if bool((applied != 0).any()):  # a running rotor's thrust is not among what is applied
+        rows.append(("applied tower-top force along x", "MN", applied))
+    if "tuned_mass_displacement" in data:
+        for name in data["damper"].to_numpy():
+            for axis in data["across"].to_numpy():
+                slip = data.tuned_mass_displacement.sel(damper=name, across=axis)
+                rows.append((f"tuned mass {name} in its carrier along {axis}", "m", slip))
     found = [
         (name, unit, [float(v) for v in (x.mean(), x.std(), x.min(), x.max())])
         for name, unit, x in rows
