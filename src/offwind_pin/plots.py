@@ -29,6 +29,17 @@ from offwind_pin.errors import InputError
 from offwind_pin.results.files import whole_file
 from offwind_pin.signal.operational_modes import OperationalModes
 
+__all__ = [
+    "mode_shapes",
+    "p_y_utilisation",
+    "psd",
+    "save",
+    "section_load_envelope",
+    "singular_values",
+    "static_states",
+    "time_histories",
+]
+
 FORMATS = (".svg", ".pdf", ".png")
 
 
