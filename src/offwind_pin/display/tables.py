@@ -65,6 +65,8 @@ _PROVENANCE_NAMES = {
     "pinocchio_version": "Pinocchio",
 }
 
+_SLIDES = {"fore_aft": "fore-aft", "side_side": "side-side", "both": "both ways"}
+
 
 @dataclass(frozen=True)
 class Surrogate:
@@ -185,10 +187,24 @@ def structure_facts(system: System) -> list[tuple[str, str]]:
     facts += [
         (f"tower and monopile, from the {above}", quantity(mass / 1e3, "t")),
         ("rotor-nacelle assembly", quantity(chain.rna.mass / 1e3, "t")),
+        *_tuned_masses(system),
         ("multibody beam elements", str(chain.elements)),
         ("degrees of freedom", str(system.nv)),
     ]
     return facts
+
+
+def _tuned_masses(system: System) -> list[tuple[str, str]]:
+    """A line about each tuned mass damper."""
+    return [
+        (
+            f"tuned mass damper {mass.name}",
+            f"{quantity(mass.mass / 1e3, 't', 3)} at z = {number(mass.z, 4)} m, "
+            f"{number(np.sqrt(mass.stiffness / mass.mass) / (2 * np.pi), 3)} Hz, "
+            f"{_SLIDES[mass.direction]}",
+        )
+        for mass in system.turbine.tuned_mass_dampers
+    ]
 
 
 def describe_sea(system: System) -> str:
