@@ -84,7 +84,7 @@ def test_regular_waves_that_break_are_told() -> None:
 
 def test_linear_theory_beyond_its_range_is_told() -> None:
     """A wave whose second harmonic is large; not a low one."""
-    assert "stream_function_waves" in told(ow.RegularWaves(5.0, 12.0), 12.0)
+    assert "stream function waves" in told(ow.RegularWaves(5.0, 12.0), 12.0)
     assert told(ow.RegularWaves(0.5, 6.0), 30.0) == ""
     assert "second harmonic" in told(irregular(4.0, 12.0), 12.0)
 

@@ -32,6 +32,8 @@ if TYPE_CHECKING:
     from offwind_pin.analysis.static import StaticResult
     from offwind_pin.display.report import CaseReport, MomentSpectrum, Published, WindDescription
 
+_ROUNDING = 1e-12
+"""Of the largest number of a unit, below which another is none."""
 _BAR = 0.10
 """Relative difference at which the bars in the table of published values end."""
 
@@ -144,10 +146,20 @@ def statistics(report: CaseReport) -> list[tuple[str, str, list[float]]]:
         ("applied tower-top force along x", "MN", data.tower_top_load.sel(component="Fx") / 1e6),
         ("wave elevation", "m", data.wave_elevation),
     ]
-    return [
+    found = [
         (name, unit, [float(v) for v in (x.mean(), x.std(), x.min(), x.max())])
         for name, unit, x in rows
     ]
+    largest = {unit: max(map(abs, values)) for _, unit, values in sorted(found, key=_size)}
+    return [
+        (name, unit, [v if abs(v) > _ROUNDING * largest[unit] else 0.0 for v in values])
+        for name, unit, values in found
+    ]
+
+
+def _size(row: tuple[str, str, list[float]]) -> float:
+    """Largest number of a row of statistics."""
+    return max(map(abs, row[2]))
 
 
 def mudline_moment(data: xr.Dataset, direction: str) -> xr.DataArray:
