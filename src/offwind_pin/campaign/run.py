@@ -30,6 +30,7 @@ from offwind_pin.campaign.output import check_writable
 from offwind_pin.campaign.settling import settle, settling_variables, summarise_settling
 from offwind_pin.campaign.summaries import (
     moment_spectrum,
+    summarise_dampers,
     summarise_damping,
     summarise_modes,
     summarise_spectrum,
@@ -236,6 +237,7 @@ def _solve_transient(
         "steps": round(analysis.duration / analysis.dt),
         "mean_iterations": float(data["solver_iterations"][1:].mean()),
         "largest_residual": float(data["solver_residual"].max()),
+        **summarise_dampers(data),
         **top.summary(system, result, state),
         **({} if shaking is None else {"earthquake": shaking.summary(result)}),
     }

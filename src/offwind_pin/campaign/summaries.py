@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import xarray as xr
 
 from offwind_pin.analysis.modal import ModalResult
@@ -49,6 +50,20 @@ def summarise_static(state: StaticResult) -> dict[str, Any]:
         "iterations": state.iterations,
         "residual": state.residual,
     }
+
+
+def summarise_dampers(data: xr.Dataset) -> dict[str, Any]:
+    """How far each tuned mass damper slides, the ramp included; empty without dampers."""
+    if "tuned_mass_displacement" not in data:
+        return {}
+    far = np.hypot(*data["tuned_mass_displacement"].transpose("across", ...).to_numpy()).max(axis=0)
+    room = data["tuned_mass_travel"].to_numpy()
+    rows = [
+        {"name": str(name), "largest_displacement_m": float(far[i])}
+        | ({"travel_m": float(room[i])} if np.isfinite(room[i]) else {})
+        for i, name in enumerate(data["damper"].to_numpy())
+    ]
+    return {"tuned_mass_dampers": rows}
 
 
 def moment_spectrum(data: xr.Dataset, segment: float, marked: dict[str, float]) -> MomentSpectrum:
