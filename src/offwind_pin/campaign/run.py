@@ -238,13 +238,13 @@ def _solve_transient(
         "steps": round(analysis.duration / analysis.dt),
         "mean_iterations": float(data["solver_iterations"][1:].mean()),
         "largest_residual": float(data["solver_residual"].max()),
+        **summarise_dampers(data),
         **top.summary(system, result, state),
         **({} if shaking is None else {"earthquake": shaking.summary(result)}),
     }
     waves = wave_facts(system)
     if waves:
         summary["waves"] = waves | summarise_run_s_waves(data)
-    summary |= summarise_dampers(data)
     described = None if shaking is None else shaking.description(result)
     statics = {case.foundation: state}
     return CaseResult(summary, data, system, result, statics, spectrum, top.facts, described)

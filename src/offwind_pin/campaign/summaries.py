@@ -62,18 +62,17 @@ def summarise_run_s_waves(data: xr.Dataset) -> dict[str, float]:
 
 
 def summarise_dampers(data: xr.Dataset) -> dict[str, Any]:
-    """Largest displacement of each tuned mass damper in its carrier; nothing without dampers."""
+    """How far each tuned mass damper slides, the ramp included; empty without dampers."""
     if "tuned_mass_displacement" not in data:
         return {}
-    slips = data["tuned_mass_displacement"].to_numpy()
-    sizes = np.hypot(slips[..., 0], slips[..., 1]).max(axis=0)
-    names = [str(name) for name in data["damper"].to_numpy()]
-    return {
-        "tuned_mass_dampers": [
-            {"name": name, "largest_displacement_m": float(size)}
-            for name, size in zip(names, sizes, strict=True)
-        ]
-    }
+    far = np.hypot(*data["tuned_mass_displacement"].transpose("across", ...).to_numpy()).max(axis=0)
+    room = data["tuned_mass_travel"].to_numpy()
+    rows = [
+        {"name": str(name), "largest_displacement_m": float(far[i])}
+        | ({"travel_m": float(room[i])} if np.isfinite(room[i]) else {})
+        for i, name in enumerate(data["damper"].to_numpy())
+    ]
+    return {"tuned_mass_dampers": rows}
 
 
 def moment_spectrum(data: xr.Dataset, segment: float, marked: dict[str, float]) -> MomentSpectrum:

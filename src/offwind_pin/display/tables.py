@@ -21,8 +21,10 @@ from offwind_pin.display.wording import (
     sentence,
     significant_digits,
 )
+from offwind_pin.dynamics.sea import StillWater
 from offwind_pin.dynamics.system import System
 from offwind_pin.dynamics.wave_checks import wave_facts
+from offwind_pin.loads.current import mean_velocity
 from offwind_pin.loads.synthetic_wind import AIR_DENSITY
 from offwind_pin.structure.urdf import definition_hash
 
@@ -66,6 +68,8 @@ _PROVENANCE_NAMES = {
     "offwind_pin_version": "offwind-pin",
     "pinocchio_version": "Pinocchio",
 }
+
+_SLIDES = {"fore_aft": "fore-aft", "side_side": "side-side", "both": "both ways"}
 
 
 @dataclass(frozen=True)
@@ -204,15 +208,41 @@ def structure_facts(system: System) -> list[tuple[str, str]]:
     facts += [
         (f"tower and monopile, from the {above}", quantity(mass / 1e3, "t")),
         ("rotor-nacelle assembly", quantity(chain.rna.mass / 1e3, "t")),
+        *_tuned_masses(system),
         ("multibody beam elements", str(chain.elements)),
         ("degrees of freedom", str(system.nv)),
     ]
     return facts
 
 
+def _tuned_masses(system: System) -> list[tuple[str, str]]:
+    """A line about each tuned mass damper."""
+    return [
+        (
+            f"tuned mass damper {mass.name}",
+            f"{quantity(mass.mass / 1e3, 't', 3)} at z = {number(mass.z, 4)} m, "
+            f"{number(np.sqrt(mass.stiffness / mass.mass) / (2 * np.pi), 3)} Hz, "
+            f"{_SLIDES[mass.direction]}",
+        )
+        for mass in system.turbine.tuned_mass_dampers
+    ]
+
+
 def describe_sea(system: System) -> str:
     """The sea in words."""
-    return "none (dry)" if system.sea is None else system.sea.in_words
+    sea = system.sea
+    if sea is None:
+        return "none (dry)"
+    told = [sea.in_words]
+    if sea.water_level:
+        told.append(f"mean level at z = {sea.water_level:g} m")
+    if sea.stretching != "none" and not isinstance(sea, StillWater):
+        told.append(f"stretched to the surface ({sea.stretching})")
+    if sea.current is not None:
+        x, y, _ = mean_velocity(sea.current, sea.water_level - system.turbine.site.mudline)
+        speed, towards = float(np.hypot(x, y)), float(np.degrees(np.arctan2(y, x)))
+        told.append(f"current of {speed:.3g} m/s in the mean over depth, towards {towards:.3g}°")
+    return ", ".join(told)
 
 
 def _realised_waves(system: System) -> list[tuple[str, str]]:
