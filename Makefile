@@ -27,7 +27,7 @@ demo: $(INSTALLED) ## Solve OC6 LC 5.1, write its report and the second mode's a
 	@echo "Open out/oc6-lc5.1/report.html and out/oc6-lc5.1/fa2.html in a browser."
 
 test: $(INSTALLED) ## Run the whole test suite
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest --numprocesses auto --maxprocesses 4 --dist loadfile
 
 check: lint types ## Lint, format and type checks
 

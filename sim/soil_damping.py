@@ -1,7 +1,8 @@
 """What each description of the soil damps in LC 5.1: the mudline moment's spectrum, and heat.
 
-Eight descriptions of the benchmark's ground under the same waves and wind, for several seeds. The
-paper (Rahman et al., MECC 2025) reports an order of them; the table shows ours.
+Eight descriptions of the benchmark's ground under the same waves and wind, for several seeds, and
+one of them without the water's added mass. The paper (Rahman et al., MECC 2025) reports an order of
+them; the table shows ours.
 """
 
 from __future__ import annotations

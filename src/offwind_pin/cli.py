@@ -23,7 +23,7 @@ from offwind_pin.analysis.build import build
 from offwind_pin.analysis.foundations import FOUNDATIONS
 from offwind_pin.analysis.modal import mode_name, modes
 from offwind_pin.analysis.static import static
-from offwind_pin.campaign.case import load_case
+from offwind_pin.campaign.case import load_case, shipped_cases
 from offwind_pin.campaign.export import export_urdf
 from offwind_pin.campaign.output import check_writable
 from offwind_pin.campaign.overview import Overview, overview
@@ -43,7 +43,7 @@ from offwind_pin.results.files import write_text
 from offwind_pin.results.reading import open_results
 from offwind_pin.structure.chain import Element
 from offwind_pin.turbines.base import Array
-from offwind_pin.turbines.reader import load_turbine
+from offwind_pin.turbines.reader import load_turbine, shipped_turbines
 from offwind_pin.verification.ledger import Outcome, Row, choose, verify
 from offwind_pin.verification.page import outcome_cells, verification_page
 
@@ -56,7 +56,9 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 
-TurbineArgument = Annotated[str, typer.Argument(help="Shipped name (oc6_phase2) or a YAML file.")]
+TurbineArgument = Annotated[
+    str, typer.Argument(help=f"Shipped name ({', '.join(shipped_turbines())}) or a YAML file.")
+]
 FoundationOption = Annotated[str, typer.Option(help=f"One of {', '.join(FOUNDATIONS)}.")]
 ElementsOption = Annotated[int | None, typer.Option(help="Multibody beam elements in all.")]
 ElementOption = Annotated[
@@ -178,7 +180,9 @@ def soil_command(
 
 @app.command()
 def run(
-    case: Annotated[str, typer.Argument(help="Shipped name (oc6-lc5.1) or a YAML file.")],
+    case: Annotated[
+        str, typer.Argument(help=f"Shipped name ({', '.join(shipped_cases())}) or a YAML file.")
+    ],
     out: Annotated[Path, typer.Option(help="Directory for the results.")],
     as_json: JsonOption = False,  # noqa: FBT002
 ) -> None:

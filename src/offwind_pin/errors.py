@@ -2,6 +2,8 @@
 
 from typing import Any
 
+import numpy as np
+
 
 class OffwindError(Exception):
     """Base of every error this package raises on purpose."""
@@ -71,5 +73,6 @@ class InterruptedSimulation(OffwindError):
 
 
 def _shorten(value: object, limit: int = 240) -> str:
-    text = value if isinstance(value, str) and " " in value else repr(value)
+    plain = value.item() if isinstance(value, np.generic) else value  # 18.0, no np.float64(18.0)
+    text = plain if isinstance(plain, str) and " " in plain else repr(plain)
     return text if len(text) <= limit else text[: limit - 3] + "..."

@@ -218,6 +218,20 @@ def test_other_systems_are_refused(system: ow.System, tmp_path: Path) -> None:
             run(other, "fixed", tmp_path)
 
 
+def test_a_short_gust_is_seen(system: ow.System, tmp_path: Path) -> None:
+    """Two winds that differ for a second only are not taken for one another."""
+
+    def drag(gust_start: float) -> list[object]:
+        gust = ow.ExtremeOperatingGust(5.0, start=gust_start, period=1.0)
+        wind = ow.TowerWind(10.0, 90.0, ow.PowerLaw(0.14), 0.7, gust=gust)
+        return [ow.tower_drag(system, wind)]
+
+    with pytest.raises(ow.InterruptedSimulation):
+        run(system, "fixed", tmp_path, loads=drag(61.0), progress=stop_at(40.0))
+    with pytest.raises(ow.InputError, match="another run"):
+        run(system, "fixed", tmp_path, loads=drag(62.5))
+
+
 @pytest.mark.parametrize(
     "text", ["", "{", '{"duration_s": 90', "[]", "null", "\x00\x01", "{}"], ids=repr
 )

@@ -52,11 +52,18 @@ def test_mean_over_the_depth() -> None:
         lambda: ow.CurrentTable(1.0, depth=(0.0, 1.0), factor=(1.0,)),
         lambda: ow.CurrentTable(1.0, depth=(1.0, 0.0), factor=(1.0, 1.0)),
         lambda: ow.CurrentTable(1.0, depth=(0.0, 1.0), factor=(1.0, float("nan"))),
+        lambda: ow.CurrentTable(2.0, depth=(0.0, 1.0), factor=(1.0, -5.1)),
     ],
 )
 def test_currents_that_cannot_be(make: type[Current]) -> None:
     with pytest.raises(ow.InputError, match="current"):
         make()
+
+
+def test_factors_up_to_the_fastest_current_pass() -> None:
+    """Negative control of the refusal: a factor is no speed."""
+    table = ow.CurrentTable(0.5, depth=(0.0, 1.0), factor=(1.0, -20.0))
+    assert table.velocity(np.array([-1.0]), 20.0)[0, 0] == pytest.approx(-10.0)
 
 
 def test_current_pushes_the_structure(oc6: ow.Turbine) -> None:

@@ -178,6 +178,7 @@ def test_cautions(caplog: pytest.LogCaptureFixture, clamped_dry: ow.System) -> N
     assert "coarse" in told(shaking(6.0, 0.05))
     drifting = replace(good, acceleration=good.acceleration + np.array([0.05, 0, 0]))
     assert "still moves by 0.3" in told(drifting)
+    assert "zeros alone" in told(good.scaled(0.0))
     crooked = replace(drifting, baseline="parabolic").scaled(0.1)
     assert ground_motion_cautions(crooked, 0.01, 10.0) == []
     crooked = replace(good, acceleration=good.acceleration + 0.6, baseline="parabolic")

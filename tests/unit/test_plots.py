@@ -152,6 +152,28 @@ class TestModeShapes:
         assert 2 <= len(dots) <= 3
         assert all(abs(dot.get_xdata()[0]) == pytest.approx(1.0) for dot in dots)
 
+    def test_dampers_take_no_place_of_the_structure(self, undamped: ow.Turbine) -> None:
+        """Three dampers along x; the second fore-aft mode is drawn beside them all."""
+        dampers = [
+            {
+                "name": f"d{i}",
+                "z_m": undamped.yaw_bearing - 1.0,
+                "mass_kg": 1e4,
+                "direction": "fore_aft",
+                "frequency_hz": 0.2 + 0.01 * i,
+                "damping_ratio": 0.05,
+            }
+            for i in range(3)
+        ]
+        described = undamped.model_dump(by_alias=True) | {"tuned_mass_dampers": dampers}
+        turbine = ow.Turbine.model_validate(described)
+        found = ow.modes(ow.build(turbine, "clamped", elements=8), 10)
+        drawn = [
+            str(line.get_label()).split()[0]
+            for line in plots.mode_shapes(found, -20.0).axes[0].lines
+        ]
+        assert {"FA1", "FA2", "TMD1", "TMD2", "TMD3"} <= set(drawn)
+
     def test_marks_mudline_and_water(self, coarse_modes: ow.ModalResult) -> None:
         wet, dry = (
             plots.mode_shapes(coarse_modes, -30.0, water=water).axes[0] for water in (0.0, None)

@@ -16,6 +16,7 @@ import offwind_pin as ow
 from offwind_pin.analysis.modal import mode_name
 from offwind_pin.display import plots
 from offwind_pin.display.earthquake_plots import EarthquakeDescription
+from offwind_pin.display.identified_plots import IdentifiedModes
 from offwind_pin.display.report import (
     SECTIONS,
     Band,
@@ -26,6 +27,7 @@ from offwind_pin.display.report import (
     render_report,
     write_report,
 )
+from offwind_pin.display.settling_plot import Settling
 from offwind_pin.display.wording import (
     DASH,
     MINUS,
@@ -100,6 +102,8 @@ def full(coarse: ow.System) -> CaseReport:
         wind=WindDescription(wind, rotor),
         rotor=(("mean thrust", "1.1 MN"),),
         earthquake=described_earthquake(),
+        identified=identified_modes(),
+        settling=settling(),
         psd=psd,
     )
 
@@ -119,6 +123,50 @@ def html(full: CaseReport) -> str:
 @pytest.fixture(scope="module")
 def page(html: str) -> Page:
     return Page(html)
+
+
+def identified_modes() -> IdentifiedModes:
+    """Two shapes at five nodes, as good as exact."""
+    height = np.linspace(-30.0, 115.0, 5)
+    shape = np.array([np.linspace(0, 1, 5) ** 2, np.sin(np.linspace(0.2, 2.8, 5))])
+    values = np.array([0.24, 1.14])
+    lines = np.linspace(0.01, 3.0, 300)
+    found = ow.OperationalModes(
+        frequency_hz=values,
+        damping_ratio=np.array([0.006, 0.025]),
+        damping_error=np.zeros(2),
+        damping_scatter=np.array([0.001, 0.001]),
+        shape=shape,
+        complexity=np.zeros(2),
+        complex_shape=shape.astype(complex),
+        peak_hz=values,
+        bell_hz=np.column_stack([values, values]),
+        names=tuple("abcde"),
+        frequencies=lines,
+        singular_values=1e-3 / np.outer(1 + 100 * (lines - 0.24) ** 2, np.arange(1, 6) ** 2),
+        segments=40,
+        averages=40.0,
+        cautions=("a caution about the record",),
+    )
+    return IdentifiedModes(
+        label=("FA1", "FA2"),
+        height=height,
+        found=found,
+        frequency_hz=1.001 * values,
+        damping_ratio=found.damping_ratio,
+        shape=shape,
+        assurance=np.ones(2),
+        peak_height_ratio=np.array([1.0, 0.6]),
+        duration=600.0,
+        seed=1,
+    )
+
+
+def settling() -> Settling:
+    time = np.linspace(0.0, 300.0, 601)
+    swing = 0.2 * np.exp(-time / 30) * np.cos(1.5 * time)
+    top = np.column_stack([-0.2 + swing, 0 * time, 0 * time])
+    return Settling(time, top, np.abs(swing), top[-1])
 
 
 def described_earthquake() -> EarthquakeDescription:
@@ -180,6 +228,7 @@ class TestContents:
             ("wind", None, {"wind"}),
             ("rotor", (), {"rotor"}),
             ("earthquake", None, {"earthquake"}),
+            ("identified", None, {"identified"}),
             ("published", (), {"published"}),
             ("histories", None, {"histories", "envelope", "sea"}),
         ],

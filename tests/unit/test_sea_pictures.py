@@ -155,6 +155,34 @@ class TestSpectrum:
         assert target is not None
         assert_allclose(density, target(frequency), rtol=0.02, atol=2e-3 * density.max())
 
+    def test_one_band_holds_a_narrow_sea(self, undamped: ow.Turbine) -> None:
+        """A sea narrower than the bands asked for is one band with all its variance."""
+        noise = ow.WhiteNoise(1.0, 0.1, 0.12)
+        waves = Waters.of(
+            undamped, ow.IrregularWaves(spectrum=noise, seed=1, repeat_period=1000.0)
+        ).surface.waves
+        (frequency,), (density,) = sea_data.component_density(waves, 0.2)
+        assert frequency == pytest.approx(0.11, abs=1e-3)
+        assert density * 21 / 1000 == pytest.approx(1 / 16, rel=0.06)
+
+    def test_the_set_down_is_no_variance(self, undamped: ow.Turbine) -> None:
+        """Waves of second order begin at harmonic 0, whose square is no part of the variance."""
+        steep = ow.IrregularWaves(6.0, 12.0, seed=1, repeat_period=600.0, order=2)
+        waves = Waters.of(undamped, steep).surface.waves
+        assert abs(waves.elevation[0]) > 0.01
+        frequency, density = sea_data.component_density(waves, 1 / 600)
+        assert frequency[0] == pytest.approx(1 / 600)
+        assert density[0] == pytest.approx(abs(waves.elevation[1]) ** 2 / 2 * 600)
+
+    @pytest.mark.parametrize("quiet", [True, False])
+    def test_a_quiet_run_is_drawn_beside_the_components(self, quiet: bool) -> None:
+        """A run between groups may lie below all that the picture shows of the whole sea."""
+        f = np.linspace(0.0, 0.5, 51)
+        whole = np.where(abs(f - 0.1) < 0.035, 5.0, 0.0)
+        run = (f, (1e-4 if quiet else 1.0) * whole)
+        axes = sea_plots.elevation_spectrum(run, (f, whole), None).axes[0]
+        assert axes.get_xlim() == pytest.approx((0, 1.05 * 0.13))
+
     def test_of_a_long_run_is_that_of_the_components(
         self, undamped: ow.Turbine, sea: ow.IrregularWaves
     ) -> None:
@@ -167,6 +195,17 @@ class TestSpectrum:
         near = (frequency > 0.08) & (frequency < 0.3)
         ratio = density[near].sum() / target(frequency[near]).sum()
         assert ratio == pytest.approx(1, abs=0.1)
+
+
+@pytest.mark.parametrize("length", [60.0, 400.0])
+def test_long_titles_have_lines_that_fit(length: float) -> None:
+    """Of one panel as of two; a title that is cut off tells half the sea."""
+    time = np.arange(0, length, 0.5)
+    title = "TMA waves " * 15
+    figure = sea_plots.surface_elevation(time, np.sin(time), title=title.strip())
+    whole = figure.axes[0].get_title("left")
+    assert whole.replace("\n", " ") == title.strip()
+    assert max(map(len, whole.split("\n"))) <= (85 if length < 120 else 55)
 
 
 SEAS: dict[str, Sea] = {

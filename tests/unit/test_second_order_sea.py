@@ -12,6 +12,7 @@ import offwind_pin as ow
 from offwind_pin.campaign.sea_states import SeaChoice
 from offwind_pin.dynamics.wave_checks import wave_facts
 from offwind_pin.loads.second_order_waves import SecondOrderWaves
+from offwind_pin.loads.water_series import WaterSeries, WaterSurface
 
 DEPTH, GRAVITY = 30.0, 9.80665
 
@@ -88,3 +89,20 @@ def test_higher_crests_bend_the_pile_more(oc6: ow.Turbine) -> None:
         moments.append(float(np.ptp(last)))
     assert moments[1] == pytest.approx(moments[2], rel=0.03)
     assert abs(moments[1] / moments[2] - 1) < abs(moments[0] / moments[2] - 1)
+
+
+def test_extrapolation_continues_the_first_order_alone() -> None:
+    """Above the mean level: the second order as it stands there, the first with its slope."""
+    time, above = np.array([0.0, 1.3]), 1.2
+    first, whole = (
+        ow.RegularWaves(4.0, 9.0, order=order, stretching="extrapolation") for order in (1, 2)
+    )
+
+    def motion(kind: Any, height: float) -> Any:
+        surface = WaterSurface(kind.waves(DEPTH, GRAVITY), 0.0, "extrapolation")
+        return WaterSeries(np.array([height]), surface).rows(time, np.ones(2))[:, 1:]
+
+    at_crest = motion(whole, above)[0] - motion(whole, 0.0)[0]
+    assert at_crest == pytest.approx(motion(first, above)[0] - motion(first, 0.0)[0], abs=1e-9)
+    assert at_crest[0] > 0.05
+    assert motion(whole, 0.0)[0, 0] != pytest.approx(motion(first, 0.0)[0, 0], rel=1e-2)

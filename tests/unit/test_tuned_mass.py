@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 import offwind_pin as ow
 from offwind_pin.analysis.integrators import GeneralizedAlpha
 from offwind_pin.campaign.overview import overview
+from offwind_pin.campaign.summaries import summarise_dampers
 from offwind_pin.display.animation import animate
 from offwind_pin.display.motion import PEAK_SHARE, mode_motion
 from offwind_pin.display.plots import mode_shapes
@@ -447,3 +448,22 @@ def test_a_mode_that_moves_nothing_else(undamped: ow.Turbine) -> None:
     assert np.all(np.isfinite(motion.share))
     height = system.chain.top - system.chain.base
     assert np.abs(motion.sliding[:, 0, 0, 3]).max() == pytest.approx(PEAK_SHARE * height, rel=1e-6)
+
+
+def test_a_case_s_summary_has_the_largest_motion(oc6: ow.Turbine, tmp_path: Path) -> None:
+    """Of each damper by name; nothing for a turbine without any."""
+    turbine = with_dampers(oc6, damper("top", 100.0, "both", 2e4))
+    pushed = np.zeros((2, 6))
+    pushed[:, 0] = 0.0, 1e6
+    history = ow.LoadHistory(np.array([0.0, 20.0]), pushed, "push")
+    kinds = (turbine, oc6)
+    found = []
+    for kind in kinds:
+        system = ow.build(kind, "clamped", elements=6)
+        data = ow.simulate(system, 20.0, 0.1, [history], heights=[0.0])
+        found.append((summarise_dampers(data), data))
+    (row,) = found[0][0]["tuned_mass_dampers"]
+    slips = found[0][1]["tuned_mass_displacement"].to_numpy()
+    assert row["name"] == "top"
+    assert row["largest_displacement_m"] == pytest.approx(np.abs(slips[..., 0]).max(), rel=1e-6)
+    assert found[1][0] == {}

@@ -84,7 +84,7 @@ def test_regular_waves_that_break_are_told() -> None:
 
 def test_linear_theory_beyond_its_range_is_told() -> None:
     """A wave whose second harmonic is large; not a low one."""
-    assert "stream_function_waves" in told(ow.RegularWaves(5.0, 12.0), 12.0)
+    assert "stream function waves" in told(ow.RegularWaves(5.0, 12.0), 12.0)
     assert told(ow.RegularWaves(0.5, 6.0), 30.0) == ""
     assert "second harmonic" in told(irregular(4.0, 12.0), 12.0)
 
@@ -138,6 +138,21 @@ def test_it_is_refused(
     crest = getattr(sea, "crest", None)
     length = 80.0 if crest is not None else 60.0
     check_waves(small(sea, oc6), length, 4.0, 0.02)
+
+
+@pytest.mark.parametrize("stretching", ["none", "wheeler"])
+def test_waves_that_bare_the_bed_are_refused(stretching: Any, oc6: ow.Turbine) -> None:
+    """Whatever the theory says of them: Hs of hundreds of metres is a mistaken unit."""
+
+    def table(density: float) -> ow.IrregularWaves:
+        spectrum = ow.TableSpectrum((0.05, 0.1, 0.15, 0.2), (0.0, density, density, 0.0))
+        return ow.IrregularWaves(
+            spectrum=spectrum, seed=1, repeat_period=600.0, stretching=stretching
+        )
+
+    check_waves(small(table(10.0), oc6), 60.0, 4.0, 0.05)  # negative control: 4 m
+    with pytest.raises(ow.InputError, match=r"a trough of -.* m in 30 m of water"):
+        check_waves(small(table(1e5), oc6), 60.0, 4.0, 0.05)
 
 
 def test_simulate_refuses_waves_that_repeat(oc6: ow.Turbine) -> None:

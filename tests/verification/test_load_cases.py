@@ -13,6 +13,7 @@ import xarray as xr
 import offwind_pin as ow
 from offwind_pin.campaign.case import Case, ModalAnalysis, load_case, shipped_cases
 from offwind_pin.campaign.run import run_case
+from offwind_pin.campaign.settling import settle
 
 ALWAYS = {"case", "wall_s", "simulated_s", "realtime_factor", "status"}
 
@@ -113,6 +114,10 @@ def test_lc51_summary_has_the_agreed_keys(lc51: tuple[dict[str, Any], Path]) -> 
     assert ALWAYS | agreed <= summary.keys()
     assert summary["simulated_s"] == 660.0
     assert summary["seed"] == 1
+    assert summary["mudline_moment_x_min_Nm"] < summary["mudline_moment_x_max_Nm"]
+    waves = summary["waves"]
+    assert 0.6 < waves["highest_crest_of_run_m"] <= waves["highest_crest_m"]
+    assert waves["lowest_trough_m"] <= waves["lowest_trough_of_run_m"] < -0.6
 
 
 def test_lc51_spectrum_peaks(lc51: tuple[dict[str, Any], Path]) -> None:
@@ -172,3 +177,13 @@ def test_lc51_halving_the_step(lc51: tuple[dict[str, Any], Path], tmp_path: Path
     assert summary["mudline_moment_y_std_Nm"] == pytest.approx(
         lc51[0]["mudline_moment_y_std_Nm"], rel=0.01
     )
+
+
+def test_a_structure_that_does_not_settle_is_told(
+    undamped: ow.Turbine, caplog: pytest.LogCaptureFixture
+) -> None:
+    """Clamped, dry and without damping it swings on."""
+    system = ow.build(undamped, "clamped", elements=6)
+    settling = settle(system, ow.static(system), 20.0)
+    assert settling.difference[-1] > 1e-3
+    assert "give it damping" in caplog.text

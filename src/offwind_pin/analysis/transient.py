@@ -43,6 +43,9 @@ _log = logging.getLogger(__name__)
 Progress = Callable[[float], None]
 Start = Literal["static", "undeformed"]
 
+_SAMPLES = 2001
+"""Times at which a run's loads are compared with those of the run it goes on from: of an hour every
+two seconds, so that no gust lies in between."""
 _BLOCK_SECONDS = 20.0
 _BLOCK_STEPS = 2000
 """A block ends with an output and holds no more than either; it is what a killed run loses."""
@@ -320,7 +323,7 @@ def _at_yaw_bearing(
 def _fingerprint(chain: CompiledChain, sections: Sections, duration: float) -> str:
     """Hash of everything that determines the results besides the settings: loads and heights."""
     digest = hashlib.sha256()
-    numbers = chain.rows(np.linspace(0.0, duration, 7))
+    numbers = chain.rows(np.linspace(0.0, duration, _SAMPLES))
     digest.update(json.dumps(chain.system.foundation.describe()).encode())
     arrays = [numbers, sections[0].height, sections[1].cut]
     arrays += [chain.arrays.stiffness, chain.arrays.damping]

@@ -7,6 +7,7 @@ yaw bearing, frequency domain decomposition; here beside the modes of the eigena
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -45,19 +46,24 @@ def identify(
 
     Raises
     ------
-    InputError : the record is too short for what is asked
+    InputError : modes that were not computed, or a record too short for what is asked
     """
     height = np.linspace(system.turbine.site.mudline, system.chain.top, asked.nodes)
-    data = _shaken(system, height, asked.duration, seed, progress)
-    record = data["acceleration"].sel(direction="x").sel(height=height, method="nearest")
     rows = [modes.index(label) for label in LABELS]
+    data = _shaken(system, height, asked.duration, seed, progress)
+    channels = data["acceleration"].sel(direction="x").sel(height=height, method="nearest")
+    record = channels.to_numpy()[data["time"].to_numpy() >= SETTLING]
+    moves = np.ptp(record, axis=0) > 0  # not the mudline of a clamped base
     found = operational_modes(
-        record.to_numpy()[data["time"].to_numpy() >= SETTLING],
+        record[:, moves],
         1 / STEP,
         asked.segment,
         near=modes.frequency_hz[rows].tolist(),
-        names=[f"z {z:.4g} m" for z in height],
+        names=[f"z {z:.4g} m" for z in height[moves]],
     )
+    everywhere = np.zeros((len(LABELS), asked.nodes))
+    everywhere[:, moves] = found.shape
+    found = replace(found, shape=everywhere)
     shape = np.array([np.interp(height, modes.height, modes.shape[row, :, 0]) for row in rows])
     shape /= np.max(np.abs(shape), axis=1, keepdims=True)
     return IdentifiedModes(

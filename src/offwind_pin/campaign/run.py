@@ -31,8 +31,10 @@ from offwind_pin.campaign.output import check_writable
 from offwind_pin.campaign.settling import settle, settling_variables, summarise_settling
 from offwind_pin.campaign.summaries import (
     moment_spectrum,
+    summarise_dampers,
     summarise_damping,
     summarise_modes,
+    summarise_run_s_waves,
     summarise_spectrum,
     summarise_static,
 )
@@ -229,12 +231,13 @@ def _solve_transient(
         "steps": round(analysis.duration / analysis.dt),
         "mean_iterations": float(data["solver_iterations"][1:].mean()),
         "largest_residual": float(data["solver_residual"].max()),
+        **summarise_dampers(data),
         **top.summary(system, result, state),
         **({} if shaking is None else {"earthquake": shaking.summary(result)}),
     }
     waves = wave_facts(system)
     if waves:
-        summary["waves"] = waves
+        summary["waves"] = waves | summarise_run_s_waves(data)
     described = None if shaking is None else shaking.description(result)
     statics = {case.foundation: state}
     return CaseResult(summary, data, system, result, statics, spectrum, top.facts, described)

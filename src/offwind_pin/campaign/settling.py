@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable
 from typing import Any
 
@@ -18,6 +19,10 @@ Progress = Callable[[float, float], None]
 STEP = 0.05
 """s; the state at rest does not depend on it."""
 _OUTPUT = 0.5
+_AT_REST = 1e-6
+"""m from the static state, from where on a structure counts as settled."""
+
+_log = logging.getLogger(__name__)
 
 
 def settle(
@@ -35,6 +40,13 @@ def settle(
     )
     moved = data["displacement"].sel(height=state.height, method="nearest").to_numpy()
     off = np.linalg.norm(moved - state.displacement, axis=2).max(axis=1)
+    if off[-1] > _AT_REST:
+        _log.warning(
+            "after %g s the structure is still %.2g m off its static state; give it damping, or a "
+            "longer settle_s",
+            duration,
+            off[-1],
+        )
     top = data["tower_top_displacement"].to_numpy()
     return Settling(data["time"].to_numpy(), top, off, state.tower_top_displacement)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import xarray as xr
 
 from offwind_pin.analysis.modal import ModalResult
@@ -51,6 +52,29 @@ def summarise_static(state: StaticResult) -> dict[str, Any]:
     }
 
 
+def summarise_run_s_waves(data: xr.Dataset) -> dict[str, float]:
+    """Crest and trough of the run itself, after the ramp, about the mean water level."""
+    surface = data["wave_elevation"].where(data["time"] > data.attrs["ramp_s"], drop=True)
+    return {
+        "highest_crest_of_run_m": float(surface.max()),
+        "lowest_trough_of_run_m": float(surface.min()),
+    }
+
+
+def summarise_dampers(data: xr.Dataset) -> dict[str, Any]:
+    """How far each tuned mass damper slides, the ramp included; empty without dampers."""
+    if "tuned_mass_displacement" not in data:
+        return {}
+    far = np.hypot(*data["tuned_mass_displacement"].transpose("across", ...).to_numpy()).max(axis=0)
+    room = data["tuned_mass_travel"].to_numpy()
+    rows = [
+        {"name": str(name), "largest_displacement_m": float(far[i])}
+        | ({"travel_m": float(room[i])} if np.isfinite(room[i]) else {})
+        for i, name in enumerate(data["damper"].to_numpy())
+    ]
+    return {"tuned_mass_dampers": rows}
+
+
 def moment_spectrum(data: xr.Dataset, segment: float, marked: dict[str, float]) -> MomentSpectrum:
     """PSD of the fore-aft moment at the mudline after the ramp.
 
@@ -67,9 +91,9 @@ def moment_spectrum(data: xr.Dataset, segment: float, marked: dict[str, float]) 
 
 def summarise_spectrum(data: xr.Dataset, spectrum: MomentSpectrum) -> dict[str, Any]:
     """Mean and standard deviation of the moment, peaks and band sums."""
-    moment = data["mudline_moment"].sel(direction="y")
     after_ramp = data["time"] > data.attrs["ramp_s"]
-    analysed = moment.where(after_ramp, drop=True)
+    moments = data["mudline_moment"].where(after_ramp, drop=True)
+    analysed, sideways = moments.sel(direction="y"), moments.sel(direction="x")
     top = data["tower_top_displacement"].sel(direction="x").where(after_ramp, drop=True)
     near = {name: spectrum.nearest_peak(at) for name, at in spectrum.marked.items()}
     found = {name: at for name, at in near.items() if at is not None}
@@ -78,6 +102,10 @@ def summarise_spectrum(data: xr.Dataset, spectrum: MomentSpectrum) -> dict[str, 
         "mudline_moment_y_std_Nm": float(analysed.std()),
         "mudline_moment_y_min_Nm": float(analysed.min()),
         "mudline_moment_y_max_Nm": float(analysed.max()),
+        "mudline_moment_x_mean_Nm": float(sideways.mean()),
+        "mudline_moment_x_std_Nm": float(sideways.std()),
+        "mudline_moment_x_min_Nm": float(sideways.min()),
+        "mudline_moment_x_max_Nm": float(sideways.max()),
         "tower_top_x_mean_m": float(top.mean()),
         "tower_top_x_std_m": float(top.std()),
         "tower_top_x_min_m": float(top.min()),

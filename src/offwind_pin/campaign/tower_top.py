@@ -233,6 +233,6 @@ def rotor_of(turbine: Turbine) -> RotorNacelleRNA:
             f"turbine {turbine.name}, field rna.kind",
             turbine.rna.kind,
             "rotor_nacelle, whose rotor this load needs",
-            "Give rotor and nacelle inputs, or a load file at the yaw bearing.",
+            "Give rotor and nacelle inputs, or a load at the yaw bearing (frame: yaw_bearing).",
         )
     return turbine.rna

@@ -79,3 +79,42 @@ def identified_plot(modes: IdentifiedModes) -> Figure:
     shapes.set_title("identified (dots), eigenanalysis (lines)", fontsize="small")
     shapes.legend(loc="lower right")
     return figure
+
+
+@styled
+def singular_value_plot(modes: OperationalModes, highest: float | None = None) -> Figure:
+    """All singular values over frequency, the largest on top, with the modes found marked.
+
+    highest : end of the frequency axis in Hz, by default three times the highest mode found
+    """
+    figure = Figure(figsize=(FULL_WIDTH, 4.6))
+    axes = figure.subplots()
+    end = 3 * float(np.max(modes.frequency_hz)) if highest is None else highest
+    inside = (modes.frequencies > 0) & (modes.frequencies <= end)
+    count = modes.singular_values.shape[1]
+    for number in range(count - 1, -1, -1):
+        level = 10 * np.log10(np.maximum(modes.singular_values[inside, number], _NOTHING))
+        shade = BLUE if number == 0 else MUTED
+        faint = 1.0 if number < 2 else max(0.25, 0.8 - 0.6 * number / count)
+        axes.plot(
+            modes.frequencies[inside],
+            level,
+            color=shade,
+            alpha=faint,
+            lw=1.2 if number == 0 else 0.7,
+        )
+    top = axes.get_ylim()[1]
+    axes.set_ylim(top=top + 6)
+    for at in modes.frequency_hz:
+        axes.axvline(float(at), color=VERMILLION, lw=0.9, ls=":")
+        axes.annotate(
+            f"{at:.3f} Hz", (float(at), top + 6), (3, -3), textcoords="offset points", va="top"
+        )
+    axes.set_xlim(0, end)
+    axes.set_xlabel("frequency, Hz")
+    axes.set_ylabel(f"{count} singular values, dB of (m/s²)²/Hz")
+    return figure
+
+
+_NOTHING = 1e-30
+"""(m/s2)^2/Hz; a channel at rest has singular values of zero, which have no logarithm."""

@@ -13,7 +13,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from offwind_pin.analysis.modal import FAMILIES, ModalResult
+from offwind_pin.analysis.modal import FAMILIES, ModalResult, mode_family
 from offwind_pin.analysis.static import StaticResult
 from offwind_pin.display.springs import soil_springs
 from offwind_pin.display.structure_plot import structure
@@ -63,7 +63,9 @@ _HEIGHT_LABEL = "height z, m"
 
 @styled
 def mode_shapes(modes: ModalResult, mudline: float, *, water: float | None = 0.0) -> Figure:
-    """Unit-peak shapes over height, one panel for each family of modes, up to three in each.
+    """Unit-peak shapes over height, one panel for each family of modes.
+
+    Up to three in each are the structure's, and up to three more those of tuned mass dampers.
 
     The dot is where a shape peaks.
 
@@ -75,7 +77,10 @@ def mode_shapes(modes: ModalResult, mudline: float, *, water: float | None = 0.0
     panels = figure.subplots(1, len(families), sharey=True, squeeze=False)[0]
     for axes, family in zip(panels, families, strict=True):
         members = [i for i, name in enumerate(direction) if name == family]
-        _shapes_of_family(axes, modes, members[:_MODES_PER_FAMILY], _SHOWN_COMPONENT[family])
+        own = [i for i in members if mode_family(modes.label[i]) != "TMD"]
+        dampers = [i for i in members if mode_family(modes.label[i]) == "TMD"]
+        shown = sorted(own[:_MODES_PER_FAMILY] + dampers[: len(PALETTE) - _MODES_PER_FAMILY])
+        _shapes_of_family(axes, modes, shown, _SHOWN_COMPONENT[family])
         axes.set_title(FAMILIES[family].capitalize(), pad=8)
         what = "rotation about z" if family == "T" else "displacement"
         axes.set_xlabel(f"{what} / its peak")

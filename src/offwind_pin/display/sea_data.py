@@ -143,7 +143,7 @@ def component_density(waves: WaveField, width: float) -> tuple[Array, Array]:
     """Variance of the components in m2/Hz, gathered in bands of a width in Hz or a little more.
 
     Bands are made of a whole number of harmonics, so that each holds as many as the next; the
-    last, incomplete one is left out.
+    last, incomplete one is left out. Waves that one band holds all of make one as wide as they are.
 
     Returns
     -------
@@ -151,9 +151,12 @@ def component_density(waves: WaveField, width: float) -> tuple[Array, Array]:
     density : (b,) in m2/Hz
     """
     each = max(1, int(np.ceil(width * waves.period)))
-    variance = np.zeros(int(waves.harmonic.max()) + 1)
-    np.add.at(variance, waves.harmonic.astype(np.intp), np.abs(waves.elevation) ** 2 / 2)
-    first = int(waves.harmonic.min())
+    moving = waves.harmonic > 0  # the set-down of waves of second order is no variance
+    harmonic = waves.harmonic[moving].astype(np.intp)
+    variance = np.zeros(int(harmonic.max()) + 1)
+    np.add.at(variance, harmonic, np.abs(waves.elevation[moving]) ** 2 / 2)
+    first = int(harmonic.min())
+    each = min(each, len(variance) - first)
     bands = (len(variance) - first) // each
     whole = variance[first : first + bands * each].reshape(bands, each)
     middle: Array = first + each * np.arange(bands, dtype=float) + (each - 1) / 2

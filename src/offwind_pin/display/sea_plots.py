@@ -7,6 +7,7 @@ numbers come from :mod:`offwind_pin.display.sea_data`.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from textwrap import fill
 from typing import Any
 
 import numpy as np
@@ -42,6 +43,8 @@ _NAMES = 0.3
 """Of a panel's breadth, kept for the names of the levels."""
 _TOTAL = "#8b93a1"
 _HEIGHT_LABEL = "height z, m"
+_WIDE_TITLE, _NARROW_TITLE = 85, 55
+"""Characters in a line above a panel of full width, and above one that has another beside it."""
 _SHOWN_DEPTH = 5e-3
 """A spectrum is shown where it exceeds this share of its largest value."""
 
@@ -66,7 +69,7 @@ def surface_elevation(
     panels[0].plot(*thin(time, elevation, _COLUMNS), color=SKY, lw=0.8, zorder=2)
     panels[0].set_xlim(time[0], time[-1])
     panels[0].set_ylabel("surface above its mean, m")
-    panels[0].set_title(title)
+    panels[0].set_title(fill(title, _NARROW_TITLE if zoomed else _WIDE_TITLE))
     if ramp > 0:
         panels[0].axvspan(time[0], ramp, color="#eceef1", lw=0, zorder=0).set_gid("ramp")
     if zoomed:
@@ -175,9 +178,10 @@ def elevation_spectrum(
     figure = Figure(figsize=(FULL_WIDTH, 3.6))
     axes = figure.subplots()
     given = [pair for pair in (run, components) if pair is not None]
-    largest = max(density.max() for _, density in given)
-    end = max(frequency[density > _SHOWN_DEPTH * largest].max() for frequency, density in given)
-    start = min(frequency[density > _SHOWN_DEPTH * largest].min() for frequency, density in given)
+    frequency, density = (np.concatenate(parts) for parts in zip(*given, strict=True))
+    # A quiet run may lie below all of this, and so have no frequency of its own in it
+    high = frequency[density > _SHOWN_DEPTH * density.max()]
+    start, end = float(high.min()), float(high.max())
     if run is not None:
         frequency, density = run
         shown = (frequency > 0) & (frequency <= 1.05 * end)

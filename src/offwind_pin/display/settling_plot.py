@@ -6,9 +6,15 @@ from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter
 
-from offwind_pin.display.style import BLUE, FULL_WIDTH, MUTED, VERMILLION, styled
+from offwind_pin.display.style import (
+    BLUE,
+    FULL_WIDTH,
+    MUTED,
+    POWERS_OF_TEN,
+    VERMILLION,
+    styled,
+)
 from offwind_pin.turbines.base import Array
 
 _FIRST = 100.0
@@ -50,16 +56,8 @@ def settling_plot(settling: Settling) -> Figure:
     whole.annotate(
         "1 µm", (settling.time[-1], 1e-6), (0, 3), textcoords="offset points", ha="right"
     )
-    whole.yaxis.set_major_formatter(FuncFormatter(_power))
+    whole.yaxis.set_major_formatter(POWERS_OF_TEN)
     whole.set_ylim(bottom=max(float(np.min(settling.difference[shown])), 1e-15))
     whole.set_xlabel("time, s")
     whole.set_ylabel("largest distance, m")
     return figure
-
-
-_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-
-
-def _power(value: float, _: object) -> str:
-    """A power of ten with its exponent raised."""
-    return "10" + str(round(np.log10(value))).translate(_RAISED)

@@ -6,6 +6,7 @@ import functools
 import re
 from collections.abc import Callable, Sequence
 from io import StringIO
+from pathlib import Path
 from typing import Any, Literal, ParamSpec, TypeVar
 
 import matplotlib as mpl
@@ -99,6 +100,14 @@ def to_svg(figure: Figure, name: str) -> str:
     )
     text = re.sub(r'(?:xlink:)?href="#', f'href="#{name}-', text)
     return text.replace("url(#", f"url(#{name}-").strip()
+
+
+@styled
+def save_figure(figure: Figure, path: Path) -> None:
+    """Write a figure in the format of the path's ending, the same file for the same figure."""
+    dates = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
+    with mpl.rc_context({"svg.hashsalt": path.suffix}):
+        figure.savefig(path, dpi=200, metadata=dates.get(path.suffix.lower()))
 
 
 def spread(wanted: Sequence[float], width: float) -> Array:

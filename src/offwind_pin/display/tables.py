@@ -21,8 +21,10 @@ from offwind_pin.display.wording import (
     sentence,
     significant_digits,
 )
+from offwind_pin.dynamics.sea import StillWater
 from offwind_pin.dynamics.system import System
 from offwind_pin.dynamics.wave_checks import wave_facts
+from offwind_pin.loads.current import mean_velocity
 from offwind_pin.loads.synthetic_wind import AIR_DENSITY
 from offwind_pin.structure.urdf import definition_hash
 
@@ -32,6 +34,8 @@ if TYPE_CHECKING:
     from offwind_pin.analysis.static import StaticResult
     from offwind_pin.display.report import CaseReport, MomentSpectrum, Published, WindDescription
 
+_ROUNDING = 1e-12
+"""Of the largest number of a unit, below which another is none."""
 _BAR = 0.10
 """Relative difference at which the bars in the table of published values end."""
 
@@ -64,6 +68,8 @@ _PROVENANCE_NAMES = {
     "offwind_pin_version": "offwind-pin",
     "pinocchio_version": "Pinocchio",
 }
+
+_SLIDES = {"fore_aft": "fore-aft", "side_side": "side-side", "both": "both ways"}
 
 
 @dataclass(frozen=True)
@@ -139,13 +145,30 @@ def statistics(report: CaseReport) -> list[tuple[str, str, list[float]]]:
         ("fore-aft moment at the mudline (y)", "MN m", mudline_moment(data, "y")),
         ("side-side moment at the mudline (x)", "MN m", mudline_moment(data, "x")),
         ("shear at the mudline along x", "MN", data.mudline_force.sel(direction="x") / 1e6),
-        ("applied tower-top force along x", "MN", data.tower_top_load.sel(component="Fx") / 1e6),
         ("wave elevation", "m", data.wave_elevation),
     ]
-    return [
+    applied = data.tower_top_load.sel(component="Fx") / 1e6
+    if bool((applied != 0).any()):  # a running rotor's thrust is not among what is applied
+        rows.append(("applied tower-top force along x", "MN", applied))
+    if "tuned_mass_displacement" in data:
+        for name in data["damper"].to_numpy():
+            for axis in data["across"].to_numpy():
+                slip = data.tuned_mass_displacement.sel(damper=name, across=axis)
+                rows.append((f"tuned mass {name} in its carrier along {axis}", "m", slip))
+    found = [
         (name, unit, [float(v) for v in (x.mean(), x.std(), x.min(), x.max())])
         for name, unit, x in rows
     ]
+    largest = {unit: max(map(abs, values)) for _, unit, values in sorted(found, key=_size)}
+    return [
+        (name, unit, [v if abs(v) > _ROUNDING * largest[unit] else 0.0 for v in values])
+        for name, unit, values in found
+    ]
+
+
+def _size(row: tuple[str, str, list[float]]) -> float:
+    """Largest number of a row of statistics."""
+    return max(map(abs, row[2]))
 
 
 def mudline_moment(data: xr.Dataset, direction: str) -> xr.DataArray:
@@ -185,15 +208,41 @@ def structure_facts(system: System) -> list[tuple[str, str]]:
     facts += [
         (f"tower and monopile, from the {above}", quantity(mass / 1e3, "t")),
         ("rotor-nacelle assembly", quantity(chain.rna.mass / 1e3, "t")),
+        *_tuned_masses(system),
         ("multibody beam elements", str(chain.elements)),
         ("degrees of freedom", str(system.nv)),
     ]
     return facts
 
 
+def _tuned_masses(system: System) -> list[tuple[str, str]]:
+    """A line about each tuned mass damper."""
+    return [
+        (
+            f"tuned mass damper {mass.name}",
+            f"{quantity(mass.mass / 1e3, 't', 3)} at z = {number(mass.z, 4)} m, "
+            f"{number(np.sqrt(mass.stiffness / mass.mass) / (2 * np.pi), 3)} Hz, "
+            f"{_SLIDES[mass.direction]}",
+        )
+        for mass in system.turbine.tuned_mass_dampers
+    ]
+
+
 def describe_sea(system: System) -> str:
     """The sea in words."""
-    return "none (dry)" if system.sea is None else system.sea.in_words
+    sea = system.sea
+    if sea is None:
+        return "none (dry)"
+    told = [sea.in_words]
+    if sea.water_level:
+        told.append(f"mean level at z = {sea.water_level:g} m")
+    if sea.stretching != "none" and not isinstance(sea, StillWater):
+        told.append(f"stretched to the surface ({sea.stretching})")
+    if sea.current is not None:
+        x, y, _ = mean_velocity(sea.current, sea.water_level - system.turbine.site.mudline)
+        speed, towards = float(np.hypot(x, y)), float(np.degrees(np.arctan2(y, x)))
+        told.append(f"current of {speed:.3g} m/s in the mean over depth, towards {towards:.3g}°")
+    return ", ".join(told)
 
 
 def _realised_waves(system: System) -> list[tuple[str, str]]:

@@ -53,7 +53,8 @@ def check_waves(system: System, duration: float, ramp: float, dt: float | None) 
 
     Raises
     ------
-    InputError : waves that repeat, or a crest that does not come in full; steps too long for them
+    InputError : waves that repeat or bare the bed, or a crest that does not come in full; steps too
+        long for them
     """
     sea, waters = system.sea, system.waters
     if sea is None or waters is None or waters.surface.waves is None:
@@ -67,6 +68,14 @@ def check_waves(system: System, duration: float, ramp: float, dt: float | None) 
             f"at least the duration of the simulation ({duration:g} s)",
             "The waves would repeat: raise repeat_period, give a longer record, or shorten the "
             "simulation.",
+        )
+    lowest = waters.surface.lowest_elevation
+    if lowest <= -waves.depth:
+        raise InputError(
+            "waves",
+            f"a trough of {lowest:.3g} m in {waves.depth:.3g} m of water",
+            "a surface that stays above the bed",
+            "Lower the waves, or lengthen them. Are heights in m, and densities in m2/Hz?",
         )
     if isinstance(sea, IrregularWaves) and sea.crest is not None:
         time = sea.crest.time

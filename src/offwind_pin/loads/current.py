@@ -120,6 +120,14 @@ class CurrentTable(Current):
             raise InputError(
                 "current, field depth", list(self.depth), "rising depths from 0 down", "Sort them."
             )
+        fastest = self.speed * max(abs(factor) for factor in self.factor)
+        if fastest > FASTEST:
+            raise InputError(
+                "current, field factor",
+                f"{fastest:g} m/s where its size is largest",
+                f"up to {FASTEST:g} m/s",
+                "Factors multiply the speed; are they speeds?",
+            )
 
     def share(self, height: Array, depth: float) -> Array:
         return np.interp(-height, self.depth, self.factor)

@@ -206,6 +206,8 @@ def ground_motion_cautions(motion: GroundMotion, dt: float, duration: float) -> 
             f"steps of {dt:g} s skip samples that are {motion.step:g} s apart: what is faster than "
             f"{0.5 / dt:.3g} Hz is sampled as something slower"
         )
+    if not np.any(motion.acceleration):
+        told.append("the record holds zeros alone; the ground does not move")
     velocity = motion.motion(motion.time[-1:])[0, :, 1]
     peak = np.max(np.abs(motion.motion(motion.time)[:, :, 1]))
     if np.max(np.abs(velocity)) > _DRIFTING * peak:

@@ -18,6 +18,8 @@ Stretching = Literal["none", "vertical", "extrapolation", "wheeler"]
 
 _LEVELS = 96
 """Heights at which stretched profiles are known; they lie closest at the surface."""
+_SLOPE_LEVELS = 16
+"""Of these the nearest to the surface, from which its slopes are taken."""
 _ROUNDING = 1e-12
 """Profiles that hold less than this part of the largest are left out."""
 _BLOCK = 64
@@ -32,9 +34,10 @@ class WaterSurface:
 
     Without stretching, waves act up to the mean water level, and the surface that strips see stays
     there. With it their kinematics reach up to the moving surface: those of the mean water level as
-    they stand (vertical), continued with the slope they have there (extrapolation), or those of the
-    height (z - eta) h / (h + eta) (Wheeler, J. Petroleum Tech. 22, 1970, 359). Fields that know
-    their exact surface are taken as they are.
+    they stand (vertical), continued with the slope that their first order has there
+    (extrapolation; a second order continues as it stands), or those of the height
+    (z - eta) h / (h + eta) (Wheeler, J. Petroleum Tech. 22, 1970, 359). Fields that know their
+    exact surface are taken as they are.
 
     Attributes
     ----------
@@ -151,26 +154,45 @@ class _Motion:
         self._level = level
         if rule is not None:
             self._splines = [_cubics(level, profiles) for profiles in self._profiles]
+        self._slopes = None
+        if rule == _EXTRAPOLATION:
+            self._slopes = _slopes(waves.first_order, level, surface.level, inertia_factor)
 
     def write(self, time: Array, rise: Array, elevation: Array, result: Array) -> None:
         """Add to (t, 6 n) velocities, then accelerations, both (n, 3), under surfaces (t,)."""
         sums = rise[:, None] * self._sums.at(time)
         if self._rule is not None:
+            slopes = np.zeros((len(time), 6))
+            if self._slopes is not None:
+                slopes = rise[:, None] * self._slopes.at(time)
             for first in range(0, len(time), _BLOCK):
                 block = slice(first, first + _BLOCK)
-                self._stretch(self._rule, sums[block], elevation[block], result[block])
+                self._stretch(
+                    self._rule, sums[block], slopes[block], elevation[block], result[block]
+                )
             return
         whole = result.reshape(len(time), 2, len(self._height), 3)
         for part, profiles in zip(self._parts, self._profiles, strict=True):
             whole[:, part.quantity, :, part.axis] += sums[:, part.sums] @ profiles
 
-    def _stretch(self, rule: int, sums: Array, elevation: Array, result: Array) -> None:
+    def _stretch(
+        self, rule: int, sums: Array, slopes: Array, elevation: Array, result: Array
+    ) -> None:
         """The same for a few times, at heights that move with the surface."""
         for part, spline in zip(self._parts, self._splines, strict=True):
             cubics = (sums[:, part.sums] @ spline).reshape(len(sums), -1, 4)
             place = 3 * len(self._height) * part.quantity + part.axis
+            slope = np.ascontiguousarray(slopes[:, 3 * part.quantity + part.axis])
             _stretched(
-                rule, self._depth, self._height, elevation, self._level, cubics, place, result
+                rule,
+                self._depth,
+                self._height,
+                elevation,
+                self._level,
+                cubics,
+                slope,
+                place,
+                result,
             )
 
 
@@ -196,6 +218,25 @@ def _cubics(level: Array, profiles: Array) -> Array:
     """(r, 4 (l - 1)) coefficients of the cubics between levels of profiles (r, l)."""
     coefficients = CubicSpline(level, profiles, axis=1).c  # (4, l - 1, r)
     return np.ascontiguousarray(coefficients.transpose(2, 1, 0)).reshape(len(profiles), -1)
+
+
+def _slopes(
+    waves: WaveField,
+    level: Array,
+    mean: float,
+    inertia_factor: Callable[[Array], ComplexArray] | None,
+) -> HarmonicSeries:
+    """Sums of the derivatives by height, at the mean water level, of velocity and acceleration.
+
+    level (l,) rising to 0, mean height of the surface in m; six sums, by quantity and axis
+    """
+    top = level[-_SLOPE_LEVELS:]
+    factor = 1.0 if inertia_factor is None else inertia_factor(np.array([mean]))[0]
+    by_height = [
+        CubicSpline(top, field, axis=1)(0.0, 1)
+        for field in (waves.velocity(top), waves.acceleration(top) * factor)
+    ]
+    return HarmonicSeries(waves.period, waves.harmonic, np.concatenate(by_height))
 
 
 def _few_profiles(
@@ -240,11 +281,13 @@ def _stretched(
     elevation: Array,
     level: Array,
     cubics: Array,
+    slope: Array,
     place: int,
     result: Array,
 ) -> None:
     """Add motions under moving surfaces (t,), from cubics (t, l - 1, 4) between the levels (l,).
 
+    slope : (t,) with which extrapolation goes on above the mean level
     place : of the first strip's value in (t, 6 n); those of the next strips lie 3 on
     """
     last = len(level) - 2
@@ -265,5 +308,5 @@ def _stretched(
             c = cubics[t, interval]
             value = ((c[0] * x + c[1]) * x + c[2]) * x + c[3]
             if beyond > 0:
-                value += beyond * ((3 * c[0] * x + 2 * c[1]) * x + c[2])
+                value += beyond * slope[t]
             result[t, place + 3 * i] += value

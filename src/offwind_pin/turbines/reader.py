@@ -132,7 +132,11 @@ def _input_error(
     first = found[0]
     location = _typed(first, data)
     field = ".".join(str(part) for part in location) or "the file"
-    others = [".".join(map(str, _typed(item, data))) for item in found[1:]]
+    others = [
+        ".".join(map(str, place))
+        for place in (_typed(item, data) for item in found[1:])
+        if place != location  # another alternative for the same value
+    ]
     more = f" (More to mend in this file: {_enumerate(others)}.)" if others else ""
     where = f"{path}, field {field}"
     if first["type"] == "extra_forbidden":
@@ -153,7 +157,9 @@ def _input_error(
         allowed = context.get("expected_tags", "a kind").replace("'", "")
         return InputError(where, received, allowed, "Choose one of them." + more)
     remedy = "Check the unit named in the key." if {"ge", "gt", "le", "lt"} & set(context) else ""
-    return InputError(where, first["input"], message, (remedy or "Correct the value.") + more)
+    alternatives = [item["msg"] for item in found if _typed(item, data) == location]
+    allowed = ", or: ".join(dict.fromkeys([message, *alternatives]))
+    return InputError(where, first["input"], allowed, (remedy or "Correct the value.") + more)
 
 
 def _sentence(remedy: str) -> str:
