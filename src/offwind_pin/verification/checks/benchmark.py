@@ -91,6 +91,12 @@ def water_s_part(mode: str) -> float:
     return frequency(mode, "coupled_springs", "still") / frequency(mode, "coupled_springs")
 
 
+def water_on_springs(mode: str) -> float:
+    """The same on the shipped distributed springs."""
+    foundation = "distributed_springs"
+    return frequency(mode, foundation, "still") / frequency(mode, foundation)
+
+
 def two_foundations_of_oc3(mode: str) -> Found:
     """First frequency in Hz on OC3's distributed springs, and on its 6x6."""
     kinds = ("distributed_springs", "coupled_springs")

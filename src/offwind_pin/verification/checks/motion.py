@@ -15,8 +15,10 @@ from offwind_pin.analysis.aerodynamic_damping import aerodynamic_damping
 from offwind_pin.analysis.build import build
 from offwind_pin.analysis.integrators import GeneralizedAlpha, SciPyIVP
 from offwind_pin.analysis.transient import simulate
-from offwind_pin.campaign.case import load_case
+from offwind_pin.campaign.case import TransientAnalysis, load_case
 from offwind_pin.campaign.run import run_case
+from offwind_pin.campaign.summaries import moment_spectrum
+from offwind_pin.campaign.tower_top import tower_top
 from offwind_pin.dynamics.irregular_sea import IrregularWaves
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.rotor_thrust import Control, RotorThrust
@@ -130,6 +132,38 @@ def load_case_mean(name: str) -> Found:
     summary = _load_case(name)
     static = summary["mudline_moment_y_static_under_mean_loads_Nm"]
     return Found(float(summary["mudline_moment_y_mean_Nm"]), float(static))
+
+
+@cache
+def _bands(soil: str) -> tuple[float, float]:
+    """PSD sums of LC 5.1's moment about FA1 and FA2 in (N m)^2, shipped or ``undamped`` soil."""
+    case, folder = load_case("oc6-lc5.1")
+    analysis, turbine = case.analysis, load_turbine(case.turbine)
+    springs = turbine.soil.distributed_springs
+    if not isinstance(analysis, TransientAnalysis) or springs is None:
+        raise RuntimeError("LC 5.1 is no time history on distributed springs")
+    if soil == "undamped":
+        ground = {"distributed_springs": springs.model_copy(update={"dashpot": None})}
+        bare = turbine.soil.model_copy(update=ground)
+        turbine = turbine.model_copy(update={"soil": bare})
+    sea = case.sea.sea(case.seed, analysis.duration, folder)
+    data = simulate(
+        build(turbine, case.foundation, sea),
+        analysis.duration,
+        analysis.dt,
+        tower_top(case, turbine, analysis, folder).loads,
+        ramp=analysis.ramp,
+        output_dt=analysis.output_dt,
+        heights=[0.0],
+    )
+    first, second = moment_spectrum(data, analysis.psd_segment, {}).bands
+    return first.area, second.area
+
+
+def soil_damping_share(mode: str) -> float:
+    """PSD sum about a mode with the shipped secant dashpots over that of undamped springs."""
+    place = ("FA1", "FA2").index(mode)
+    return _bands("shipped")[place] / _bands("undamped")[place]
 
 
 @cache
