@@ -279,6 +279,14 @@ def _results_of(source: str, foundation: str, *, dry: bool) -> xr.Dataset:
     path = Path(source)
     if path.is_dir() or path.suffix == ".nc":
         return open_results(path)
+    if not path.exists() and source not in shipped_turbines():
+        raise InputError(
+            "SOURCE",
+            source,
+            "the directory of a run, its results.nc, a shipped turbine "
+            f"({', '.join(shipped_turbines())}), or a turbine's YAML file",
+            "Check the path; offwind run makes results.",
+        )
     system = build(load_turbine(source), foundation, None if dry else StillWater())
     return modes_to_dataset(system, modes(system, min(10, system.nv)))
 
