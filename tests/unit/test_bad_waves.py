@@ -64,6 +64,10 @@ FAULTS: dict[str, tuple[dict[str, Any], list[str]]] = {
         ["peak_periode_s", "peak_period_s"],
     ),
     "peak shape of ten": (WAVES | {"peak_shape": 10.0}, ["peak_shape", "10.0"]),
+    "peak shape of a name in capitals": (
+        WAVES | {"peak_shape": "IEC"},
+        ["peak_shape", "IEC", "'iec'"],
+    ),
     "noise upside down": (
         spectrum(kind="white_noise", significant_height_m=2.0, lowest_hz=0.5, highest_hz=0.1),
         ["0.5 to 0.1 Hz"],

@@ -14,7 +14,7 @@ from helpers.earthquakes import shaking
 
 import offwind_pin as ow
 from offwind_pin.analysis.modal import mode_name
-from offwind_pin.display import plots
+from offwind_pin.display import plots, tables
 from offwind_pin.display.earthquake_plots import EarthquakeDescription
 from offwind_pin.display.identified_plots import IdentifiedModes
 from offwind_pin.display.report import (
@@ -476,3 +476,32 @@ class TestWording:
 
     def test_band_names(self) -> None:
         assert Band(1.0, 1.5, 0.0).name == f"1{DASH}1.5 Hz"
+
+
+def test_the_sea_is_named_with_all_that_acts(undamped: ow.Turbine) -> None:
+    """Level, stretching and current beside the waves; none of them where there is none."""
+    plain = ow.RegularWaves(2.0, 8.0)
+    system = ow.build(undamped, "clamped", plain, elements=4)
+    assert tables.describe_sea(system) == plain.in_words
+    current = ow.UniformCurrent(0.5, 90.0)
+    sea = ow.RegularWaves(2.0, 8.0, current=current, water_level=1.5, stretching="wheeler")
+    told = tables.describe_sea(ow.build(undamped, "clamped", sea, elements=4))
+    assert "mean level at z = 1.5 m" in told
+    assert "wheeler" in told
+    assert "0.5 m/s in the mean over depth, towards 90" in told
+    still = ow.build(undamped, "clamped", ow.StillWater(stretching="wheeler"), elements=4)
+    assert "wheeler" not in tables.describe_sea(still)
+
+
+def test_rounding_is_no_number(full: CaseReport) -> None:
+    """What is 1e-13 of the largest of its unit is shown as none; 1e-6 of it stays."""
+    assert full.histories is not None
+    data = full.histories.copy(deep=True)
+    moment = data["mudline_moment"]
+    largest = float(np.abs(moment.sel(direction="y")).max())
+    for size, shown in ((1e-13, False), (1e-6, True)):
+        moment.loc[{"direction": "x"}] = size * largest
+        rows = {
+            name: values for name, _, values in tables.statistics(replace(full, histories=data))
+        }
+        assert any(rows["side-side moment at the mudline (x)"]) == shown

@@ -9,7 +9,6 @@ from helpers.numerics import relative_difference
 from helpers.states import random_state
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
-from scipy.optimize import least_squares
 
 import offwind_pin as ow
 from offwind_pin.analysis.aerodynamic_damping import AerodynamicDamping, aerodynamic_damping
@@ -21,6 +20,7 @@ from offwind_pin.loads.wind_history import WindHistory, constant_wind
 from offwind_pin.turbines.base import Array
 from offwind_pin.turbines.rna import rotor_apex
 from offwind_pin.turbines.rotor_disc import RotorDisc, rotor_disc
+from offwind_pin.verification.checks.motion import decay_after_a_kick
 
 BELOW, ABOVE = 8.5, 14.0
 MODES: list[tuple[Control, bool]] = [
@@ -110,37 +110,6 @@ def test_thrust_turns_with_the_tower(disc: RotorDisc) -> None:
     assert_allclose(tilted, turn @ upright, rtol=1e-12, atol=1e-6)
 
 
-def settled(
-    system: ow.System, thrust: RotorThrust, spectral_radius: float = 1.0
-) -> tuple[float, float]:
-    """Damping ratio and frequency in Hz of the free decay after a kick of half a metre per second."""
-    kick = np.zeros((5, 6))
-    kick[1:3, 0] = 2e4
-    history = ow.LoadHistory(np.array([0.0, 0.5, 1.0, 1.5, 50.0]), kick, "kick")
-    data = ow.simulate(
-        system,
-        40.0,
-        0.02,
-        [thrust, history],
-        spectral_radius=spectral_radius,
-        heights=[system.chain.top],
-    )
-    time = data["time"].to_numpy()
-    x = data["tower_top_displacement"].sel(direction="x").to_numpy()
-    x, time = (x - x[0])[time > 3], time[time > 3]
-
-    def misfit(p: Array) -> Array:
-        swing = p[2] * np.cos(p[1] * time) + p[3] * np.sin(p[1] * time)
-        return np.asarray(p[4] + np.exp(-p[0] * time) * swing - x)
-
-    size = float(np.std(x))
-    fit = least_squares(
-        misfit, [0.0, 2 * np.pi * 0.274, size, size, 0.0], x_scale=[0.01, 0.01, size, size, size]
-    )
-    assert np.std(fit.fun) < 0.01 * size
-    return float(fit.x[0] / np.hypot(fit.x[0], fit.x[1])), float(fit.x[1] / (2 * np.pi))
-
-
 def first_fore_aft(found: AerodynamicDamping) -> float:
     return float(found.ratio[found.label.index("FA1")])
 
@@ -153,7 +122,7 @@ def test_free_decay_has_the_linearised_damping(
     """A small free swing decays, or above rated with an instant controller grows, as told."""
     told = first_fore_aft(aerodynamic_damping(system, wind_speed, control, inflow_lag=lag, count=3))
     thrust = RotorThrust(disc, constant_wind(wind_speed), control, inflow_lag=lag)
-    found, frequency = settled(system, thrust)
+    found, frequency = decay_after_a_kick(system, thrust)
     assert found == pytest.approx(told, rel=0.02)
     assert (found < 0) == (wind_speed == ABOVE and control == "instant")
     assert frequency == pytest.approx(0.274, rel=0.02)
