@@ -13,6 +13,7 @@ from offwind_pin.campaign.sea_states import SeaChoice
 from offwind_pin.dynamics.wave_checks import wave_facts
 from offwind_pin.loads.second_order_waves import SecondOrderWaves
 from offwind_pin.loads.water_series import WaterSeries, WaterSurface
+from offwind_pin.loads.wave_surface import SurfaceWaves
 
 DEPTH, GRAVITY = 30.0, 9.80665
 
@@ -106,3 +107,12 @@ def test_extrapolation_continues_the_first_order_alone() -> None:
     assert at_crest == pytest.approx(motion(first, above)[0] - motion(first, 0.0)[0], abs=1e-9)
     assert at_crest[0] > 0.05
     assert motion(whole, 0.0)[0, 0] != pytest.approx(motion(first, 0.0)[0, 0], rel=1e-2)
+
+
+def test_the_drawn_surface_is_the_linear_part() -> None:
+    """What is bound to pairs has many lengths at one frequency; a picture draws what is free."""
+    linear, whole = (SurfaceWaves.of(sea(order).waves(DEPTH, GRAVITY)) for order in (1, 2))
+    assert linear is not None
+    assert whole is not None
+    assert np.array_equal(whole.elevation, linear.elevation)
+    assert np.array_equal(whole.number_x, linear.number_x)
