@@ -329,9 +329,7 @@ def verify_command(
     rows = choose(only)
     if page is not None:
         _check_target("--page", page, "VERIFICATION.md")
-    # Its plain structures are no turbines, and cautions about them would drown the table.
-    logging.getLogger("offwind_pin").setLevel(logging.ERROR)
-    with _rows_progress(len(rows)) as progress:
+    with _without_cautions(), _rows_progress(len(rows)) as progress:
         outcomes = verify(rows, progress)
     if page is not None:
         write_text(page, verification_page(outcomes))
@@ -407,6 +405,18 @@ def _frames_progress() -> Iterator[Callable[[int, int], None]]:
             bar.update(task, completed=written, total=count)
 
         yield update
+
+
+@contextmanager
+def _without_cautions() -> Iterator[None]:
+    """Plain structures of the ledger are no turbines: cautions about them would drown its table."""
+    logger = logging.getLogger("offwind_pin")
+    before = logger.level
+    logger.setLevel(logging.ERROR)
+    try:
+        yield
+    finally:
+        logger.setLevel(before)
 
 
 @contextmanager

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import logging
 import math
 from pathlib import Path
 from typing import Any
@@ -83,6 +84,7 @@ def test_command(offwind: Any, tmp_path: Path) -> None:
     assert code == 0
     assert {"id", "quantity", "value", "reference", "source", "tolerance", "pass"} <= set(rows[0])
     assert all(row["pass"] for row in rows)
+    assert logging.getLogger("offwind_pin").isEnabledFor(logging.WARNING)  # as it was before
     text = page.read_text()
     assert all(f"| {row['id']} |" in text for row in rows)
 
