@@ -18,6 +18,7 @@ from rich.console import Console
 from rich.table import Table
 
 from offwind_pin.analysis.build import build
+from offwind_pin.analysis.engines import Engine
 from offwind_pin.analysis.foundation.registry import FOUNDATIONS
 from offwind_pin.analysis.foundation.study.study import soil_overview
 from offwind_pin.analysis.modal import modes
@@ -68,6 +69,9 @@ ElementsOption = Annotated[int | None, typer.Option(help="Multibody beam element
 ElementOption = Annotated[
     Element, typer.Option(help="euler_bernoulli, or timoshenko for elements that shear as well.")
 ]
+EngineOption = Annotated[
+    Engine, typer.Option(help="What evaluates the equations: compiled, or pinocchio.")
+]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")]
 
 
@@ -89,18 +93,20 @@ def modes_command(
     elements: ElementsOption = None,
     element: ElementOption = "euler_bernoulli",
     count: Annotated[int | None, typer.Option(help="Number of modes, by default 8.")] = None,
+    engine: EngineOption = "compiled",
     as_json: JsonOption = False,  # noqa: FBT002
 ) -> None:
     """Natural frequencies about the static state, in still water."""
     sea = None if dry else StillWater()
     system = build(load_turbine(turbine), foundation, sea, elements=elements, element=element)
-    result = modes(system, min(8, system.nv) if count is None else count)
+    result = modes(system, min(8, system.nv) if count is None else count, engine=engine)
     rows = summarise_modes(result)
     if as_json:
         about: dict[str, Any] = {
             "turbine": system.turbine.name,
             "foundation": foundation,
             "dry": dry,
+            "engine": engine,
         }
         about |= {"surrogate": system.foundation.surrogate}
         _print_json(about | {"structural_damping": summarise_damping(system), "modes": rows})
@@ -129,14 +135,15 @@ def static_command(
     ] = None,
     elements: ElementsOption = None,
     element: ElementOption = "euler_bernoulli",
+    engine: EngineOption = "compiled",
     as_json: JsonOption = False,  # noqa: FBT002
 ) -> None:
     """Static equilibrium under gravity and, if given, a load at the yaw bearing."""
     load = None if tower_top_load is None else _numbers(tower_top_load, "--tower-top-load")
     system = build(load_turbine(turbine), foundation, elements=elements, element=element)
-    summary = summarise_static(static(system, load))
+    summary = summarise_static(static(system, load, engine=engine))
     if as_json:
-        about = {"turbine": system.turbine.name, "foundation": foundation}
+        about = {"turbine": system.turbine.name, "foundation": foundation, "engine": engine}
         _print_json(about | {"surrogate": system.foundation.surrogate} | summary)
         return
     table = Table("quantity", "value", title=f"{foundation}, static")
