@@ -5,6 +5,7 @@ import json
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -19,6 +20,7 @@ from numpy.testing import assert_allclose
 from numpy.typing import NDArray
 
 import offwind_pin as ow
+from offwind_pin.analysis.engines import Engine
 from offwind_pin.analysis.foundation.registry import FOUNDATIONS
 from offwind_pin.definitions.reader import shipped_turbines
 from offwind_pin.dynamics.compiled.chain import CompiledChain
@@ -26,6 +28,8 @@ from offwind_pin.dynamics.reference.section_loads import section_loads
 from offwind_pin.structure.chain import Element
 
 Array = NDArray[np.float64]
+
+ENGINES: tuple[Engine, ...] = ("compiled", "pinocchio")
 
 LOAD = np.array([1e6, 2e5, -1e5, 3e6, 2e7, 1e6])
 """At the yaw bearing in N and N m."""
@@ -41,9 +45,12 @@ def difference(one: xr.Dataset, other: xr.Dataset) -> float:
     found = 0.0
     for name in set(one.data_vars) - ROUNDING:
         a, b = one[name].to_numpy(), other[name].to_numpy()
-        peak = np.max(np.abs(b), initial=0.0)
-        if a.dtype.kind == "f" and peak > 0:
-            found = max(found, float(np.max(np.abs(a - b)) / peak))
+        if a.dtype.kind == "f":
+            finite = np.isfinite(b)
+            assert np.array_equal(np.isfinite(a), finite)
+            peak = np.max(np.abs(b[finite]), initial=0.0)
+            off = np.max(np.abs(a[finite] - b[finite]), initial=0.0)
+            found = max(found, float(off / peak) if peak > 0 else float(off))
     return found
 
 
@@ -51,7 +58,7 @@ def difference(one: xr.Dataset, other: xr.Dataset) -> float:
 def test_static_states(undamped: ow.Turbine, foundation: str) -> None:
     """Displacements, section loads and memory under gravity and all six loads at the tower top."""
     system = ow.build(undamped, foundation, ow.StillWater(), elements=9)
-    one, other = (ow.static(system, LOAD, engine=name) for name in ("compiled", "pinocchio"))
+    one, other = (ow.static(system, LOAD, engine=name) for name in ENGINES)
     assert (one.engine, other.engine) == ("compiled", "pinocchio")
     for name in ("q", "displacement", "rotation", "section_load"):
         assert relative_difference(getattr(other, name), getattr(one, name)) < 1e-9
@@ -71,7 +78,7 @@ def test_static_states_one_after_another(undamped: ow.Turbine) -> None:
     """Hysteretic soil remembers a load that acted before, with either engine."""
     system = ow.build(hysteretic(undamped, 6), "distributed_springs", elements=7)
     left = []
-    for engine in ("compiled", "pinocchio"):
+    for engine in ENGINES:
         loaded = ow.static(system, 2 * LOAD, engine=engine)
         left.append(ow.static(system, after=loaded, engine=engine))
     assert relative_difference(left[1].displacement, left[0].displacement) < 1e-9
@@ -82,7 +89,7 @@ def test_static_states_one_after_another(undamped: ow.Turbine) -> None:
 def test_an_unstable_state_is_refused(undamped: ow.Turbine) -> None:
     """A weight at the tower top beyond the buckling load, by both engines."""
     system = ow.build(undamped, "clamped", elements=6)
-    for engine in ("compiled", "pinocchio"):
+    for engine in ENGINES:
         with pytest.raises(ow.SolverError, match=r"unstable|no static equilibrium"):
             ow.static(system, np.array([0, 0, -1e9, 0, 0, 0]), engine=engine)
 
@@ -116,7 +123,7 @@ def test_modes(turbine: str, foundation: str, element: Element) -> None:
     if dampers:
         definition = several(definition)
     system = ow.build(definition, foundation, ow.StillWater(), elements=20, element=element)
-    one, other = (ow.modes(system, 10, engine=engine) for engine in ("compiled", "pinocchio"))
+    one, other = (ow.modes(system, 10, engine=engine) for engine in ENGINES)
     assert (one.engine, other.engine) == ("compiled", "pinocchio")
     assert one.label == other.label
     assert_allclose(other.frequency_hz, one.frequency_hz, rtol=1e-8)
@@ -170,14 +177,15 @@ def push(duration: float) -> ow.LoadHistory:
     return ow.LoadHistory(time, np.outer(swell, 3 * LOAD), "push")
 
 
-def move(system: ow.System, engine: str, **more: object) -> xr.Dataset:
+def move(system: ow.System, engine: Engine, **more: Any) -> xr.Dataset:
     """Two seconds with tolerances so small that both engines find the same solution."""
-    settings = {
-        "integrator": ow.GeneralizedAlpha(ow.FixedStep(0.02), 0.9, 1e-12, 1e-13),
-        "output_dt": 0.1,
-        "ramp": 0.5,
-    } | more
-    return ow.simulate(system, 2.0, loads=[push(2.0)], engine=engine, **settings)  # type: ignore[arg-type]
+    settings: dict[str, Any] = {
+        "integrator": ow.GeneralizedAlpha(ow.FixedStep(0.02), 0.9, 1e-12, 1e-13)
+    }
+    settings |= more
+    return ow.simulate(
+        system, 2.0, loads=[push(2.0)], ramp=0.5, output_dt=0.1, engine=engine, **settings
+    )
 
 
 @pytest.mark.parametrize(("make", "shaken", "adaptive"), MOVING)
@@ -186,13 +194,13 @@ def test_motion(
 ) -> None:
     """Every channel, the energies included."""
     system = make(undamped, oc6)
-    more: dict[str, object] = {}
+    more: dict[str, Any] = {}
     if shaken:
         more["ground_motion"] = by_depth(system)
     if adaptive:
         policy = ow.AdaptiveStep(1e-6, largest=0.05)
         more["integrator"] = ow.GeneralizedAlpha(policy, 0.9, 1e-12, 1e-13)
-    one, other = (move(system, engine, **more) for engine in ("compiled", "pinocchio"))
+    one, other = (move(system, engine, **more) for engine in ENGINES)
     assert (one.attrs["engine"], other.attrs["engine"]) == ("compiled", "pinocchio")
     assert np.abs(one["acceleration"]).max() > 0.1
     assert one["solver_step"].equals(other["solver_step"])
@@ -211,36 +219,34 @@ class _Stopped(Exception):
     """Raised in the middle of a run."""
 
 
-def test_a_stopped_run_goes_on(undamped: ow.Turbine, oc6: ow.Turbine, tmp_path: Path) -> None:
-    """From its last block to bitwise the same results; the other engine does not take it over."""
+def test_a_stopped_run_goes_on(undamped: ow.Turbine, tmp_path: Path) -> None:
+    """From its last block to bitwise the same results; the other engine does not continue it."""
     system = ow.build(hysteretic(undamped, 4), "distributed_springs", elements=4)
     load = push(42.0)
 
-    def run(folder: str, progress: Callable[[float], None] | None = None, **more: object) -> object:
+    def run(folder: str, engine: Engine, progress: Callable[[float], None]) -> xr.Dataset:
         return ow.simulate(
             system,
             42.0,
-            0.1,
+            0.2,
             [load],
-            engine="pinocchio",
+            engine=engine,
             directory=tmp_path / folder,
             progress=progress,
-            **more,  # type: ignore[arg-type]
         )
 
     def stop(now: float) -> None:
         raise _Stopped
 
     with pytest.raises(_Stopped):
-        run("stopped", stop)
-    reached: list[float] = []
-    resumed = run("stopped", reached.append)
-    assert reached == [40.0, 42.0]
-    assert isinstance(resumed, xr.Dataset)
-    whole = run("whole")
-    assert isinstance(whole, xr.Dataset)
-    for name in whole.data_vars:
-        assert np.array_equal(resumed[name].to_numpy(), whole[name].to_numpy()), name
+        run("stopped", "pinocchio", stop)
+    with pytest.raises(ow.InputError, match="engine"):
+        run("stopped", "compiled", stop)
+    resumed: list[float] = []
+    whole: list[float] = []
+    data = run("stopped", "pinocchio", resumed.append)
+    assert data.equals(run("whole", "pinocchio", whole.append))
+    assert (resumed, whole) == ([40.0, 42.0], [20.0, 40.0, 42.0])
 
 
 def test_a_user_s_exception_arrives_as_it_is(undamped: ow.Turbine) -> None:
@@ -257,10 +263,11 @@ def test_a_step_that_cannot_converge(undamped: ow.Turbine) -> None:
     """It fails with the time and the joint, as with compiled code."""
     system = ow.build(undamped, "clamped", elements=3)
     integrator = ow.GeneralizedAlpha(ow.FixedStep(0.1, halvings=1), 0.9, 1e-30, 1e-30)
-    for engine in ("compiled", "pinocchio"):
+    for engine in ENGINES:
         with pytest.raises(ow.SolverError, match="did not converge") as failed:
-            ow.simulate(system, 1.0, 0.1, integrator=integrator, engine=engine)
-        assert failed.value.time == pytest.approx(0.05)
+            ow.simulate(system, 1.0, 0.1, [push(1.0)], integrator=integrator, engine=engine)
+        assert failed.value.time is not None
+        assert 0 < failed.value.time <= 0.1
         assert failed.value.joint in system.chain.joint_name
 
 
@@ -302,7 +309,7 @@ def test_the_commands_take_an_engine(offwind: Callable[..., tuple[int, str, str]
     """Both print the engine and, to rounding, the same numbers; another name is refused."""
     for command, shown in (("static", "tower_top_x_m"), ("modes", "modes")):
         printed = []
-        for engine in ("compiled", "pinocchio"):
+        for engine in ENGINES:
             code, out, _ = offwind(
                 command, "oc6_phase2", "--foundation", "clamped", "--elements", "5",
                 "--engine", engine, "--json",
