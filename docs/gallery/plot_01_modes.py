@@ -10,7 +10,7 @@ is halfway up the tower, and the soil determines how far the pile below the wate
 import matplotlib.pyplot as plt
 
 import offwind_pin as ow
-from offwind_pin.display.style import PALETTE, mark_levels, styled
+from offwind_pin.display.figures.style import PALETTE, mark_levels, styled
 
 FOUNDATIONS = ("clamped", "coupled_springs", "distributed_springs")
 

@@ -11,7 +11,7 @@ of the waves.
 import matplotlib.pyplot as plt
 
 import offwind_pin as ow
-from offwind_pin.display.style import BLUE, GREEN, VERMILLION, styled
+from offwind_pin.display.figures.style import BLUE, GREEN, VERMILLION, styled
 from offwind_pin.signal.spectra import power_spectral_density
 
 RAMP, DURATION, DT = 30.0, 180.0, 0.05
