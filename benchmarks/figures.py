@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from offwind_pin.display.style import (
+from offwind_pin.display.figures.style import (
     BLUE,
     FULL_WIDTH,
     GREEN,

@@ -9,13 +9,13 @@ import measuring  # noqa: F401  (first: one BLAS thread)
 import xarray as xr
 
 import offwind_pin as ow
-from offwind_pin.campaign.case import (
+from offwind_pin.cases.case import (
     TransientAnalysis,
     load_case,
 )
-from offwind_pin.campaign.sea_states import IrregularSea
-from offwind_pin.campaign.tower_top_loads import SyntheticTowerTopLoad
-from offwind_pin.turbines.definition import RotorNacelleRNA
+from offwind_pin.cases.schema.sea import IrregularSea
+from offwind_pin.cases.schema.tower_top import SyntheticTowerTopLoad
+from offwind_pin.definitions.turbine import RotorNacelleRNA
 
 NAME = "oc6-lc5.1"
 

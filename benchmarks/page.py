@@ -17,7 +17,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 from matplotlib.figure import Figure
 
-from offwind_pin.display.style import to_svg
+from offwind_pin.display.figures.style import to_svg
 from offwind_pin.display.wording import number, quantity
 
 Report = dict[str, Any]

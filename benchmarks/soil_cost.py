@@ -21,9 +21,9 @@ from step_cost import CONVERGED
 from step_parts import STEPS, Motion, in_motion
 
 import offwind_pin as ow
-from offwind_pin.compiled import exchanging_kernels, kernel
-from offwind_pin.dynamics.chain_arrays import ChainArrays
-from offwind_pin.loads.tower_top import TowerTopLoad
+from offwind_pin.base.kernels import exchanging_kernels, kernel
+from offwind_pin.dynamics.compiled.chain_arrays import ChainArrays
+from offwind_pin.loads.tower_top.load_history import TowerTopLoad
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]

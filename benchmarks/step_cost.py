@@ -21,11 +21,11 @@ from step_parts import STEPS, Motion, in_motion, part_runs, seconds_of_a_step
 
 import offwind_pin as ow
 from offwind_pin.analysis.static import load_scale
-from offwind_pin.compiled import exchanging_kernels
-from offwind_pin.dynamics.compiled_chain import CompiledChain
-from offwind_pin.loads.points import PointLoad
-from offwind_pin.loads.tower_top import TowerTopLoad
-from offwind_pin.turbines.definition import RotorNacelleRNA
+from offwind_pin.base.kernels import exchanging_kernels
+from offwind_pin.definitions.turbine import RotorNacelleRNA
+from offwind_pin.dynamics.compiled.chain import CompiledChain
+from offwind_pin.loads.point_load import PointLoad
+from offwind_pin.loads.tower_top.load_history import TowerTopLoad
 
 Array = NDArray[np.float64]
 

@@ -17,19 +17,19 @@ from numpy.typing import NDArray
 
 from offwind_pin.analysis.integrators import GeneralizedAlpha
 from offwind_pin.analysis.static import load_scale, static
-from offwind_pin.compiled import kernel
-from offwind_pin.dynamics.balance import balance, evaluate_loads
-from offwind_pin.dynamics.chain_arrays import ChainArrays
-from offwind_pin.dynamics.compiled_chain import CompiledChain, Run
-from offwind_pin.dynamics.forward import move, move_points
-from offwind_pin.dynamics.iteration import correction, factorise
-from offwind_pin.dynamics.recorder_arrays import RecorderArrays
-from offwind_pin.dynamics.recording import take_note
+from offwind_pin.base.kernels import kernel
+from offwind_pin.dynamics.compiled.chain import CompiledChain, Run
+from offwind_pin.dynamics.compiled.chain_arrays import ChainArrays
+from offwind_pin.dynamics.compiled.forward_kinematics import move, move_points
+from offwind_pin.dynamics.compiled.newton_matrix import correction, factorise
+from offwind_pin.dynamics.compiled.recorder_arrays import RecorderArrays
+from offwind_pin.dynamics.compiled.recording import take_note
+from offwind_pin.dynamics.compiled.residual import balance, evaluate_loads
 from offwind_pin.dynamics.system import System
-from offwind_pin.loads.points import PointLoad
-from offwind_pin.solve import generalized_alpha
-from offwind_pin.solve.generalized_alpha import Method, advance, compiled_advance, start
-from offwind_pin.solve.steps import FixedStep
+from offwind_pin.loads.point_load import PointLoad
+from offwind_pin.solvers import generalized_alpha
+from offwind_pin.solvers.generalized_alpha import Method, advance, compiled_advance, start
+from offwind_pin.solvers.steps import FixedStep
 
 Array = NDArray[np.float64]
 

@@ -17,7 +17,7 @@ import numpy as np
 from operational_case import NAME, OperationalCase, operational_case
 
 import offwind_pin as ow
-from offwind_pin.dynamics.water_loads import Waters
+from offwind_pin.loads.sea.hydrodynamic_loads import Waters
 
 SETUP_ALLOWED = 0.05
 BLOCK = 1000

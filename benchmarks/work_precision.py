@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 import offwind_pin as ow
 from offwind_pin.analysis.integrators import GeneralizedAlpha, Integrator, SciPyIVP
-from offwind_pin.solve.steps import AdaptiveStep, FixedStep
+from offwind_pin.solvers.steps import AdaptiveStep, FixedStep
 
 Array = NDArray[np.float64]
 

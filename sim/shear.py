@@ -8,7 +8,7 @@ from typing import Any
 from matplotlib.figure import Figure
 
 import offwind_pin as ow
-from offwind_pin.display.style import BLUE, PALETTE, styled
+from offwind_pin.display.figures.style import BLUE, PALETTE, styled
 from offwind_pin.structure.chain import Element
 
 CASES = {

@@ -21,15 +21,16 @@ from matplotlib.ticker import LogLocator, NullLocator, StrMethodFormatter
 from numpy.typing import NDArray
 
 import offwind_pin as ow
-from offwind_pin.campaign.case import (
+from offwind_pin.cases.case import (
     Case,
     TransientAnalysis,
     load_case,
 )
-from offwind_pin.campaign.sea_states import IrregularSea
-from offwind_pin.campaign.summaries import BANDS_HZ, moment_spectrum
-from offwind_pin.campaign.tower_top_loads import SyntheticTowerTopLoad
-from offwind_pin.display.style import (
+from offwind_pin.cases.schema.sea import IrregularSea
+from offwind_pin.cases.schema.tower_top import SyntheticTowerTopLoad
+from offwind_pin.definitions.soil.springs import DistributedSprings, Hysteresis
+from offwind_pin.definitions.turbine import RotorNacelleRNA
+from offwind_pin.display.figures.style import (
     BLUE,
     FULL_WIDTH,
     GREEN,
@@ -37,8 +38,7 @@ from offwind_pin.display.style import (
     VERMILLION,
     styled,
 )
-from offwind_pin.turbines.definition import RotorNacelleRNA
-from offwind_pin.turbines.soil import DistributedSprings, Hysteresis
+from offwind_pin.signal.moment_spectrum import BANDS_HZ, moment_spectrum
 
 Array = NDArray[np.float64]
 

@@ -20,11 +20,11 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 import offwind_pin as ow
-from offwind_pin.analysis.targets import Responses
-from offwind_pin.display.style import FULL_WIDTH, INK, PALETTE, styled, to_svg
+from offwind_pin.analysis.updating.targets import Responses
+from offwind_pin.definitions.soil.depth_profile import DepthLine
+from offwind_pin.definitions.soil.springs import CurveTable, LinearModulus, TanhCurve
+from offwind_pin.display.figures.style import FULL_WIDTH, INK, PALETTE, styled, to_svg
 from offwind_pin.structure.chain import Element
-from offwind_pin.turbines.depth_profile import DepthLine
-from offwind_pin.turbines.soil import CurveTable, LinearModulus, TanhCurve
 
 Array = NDArray[np.float64]
 Curve = LinearModulus | TanhCurve | CurveTable

@@ -33,7 +33,7 @@ from problem_p import (
     TOE_VERTICAL_STIFFNESS,
 )
 
-from offwind_pin.turbines.rna import RigidBody, point_inertia
+from offwind_pin.definitions.rotor_nacelle import RigidBody, point_inertia
 
 SPECTRAL_RADIUS = 0.9
 RELATIVE_TOLERANCE = 1e-8

@@ -28,7 +28,7 @@ from problem import (
 from problem_p import JOINT_DAMPING_TIME, TOE_TORSIONAL_STIFFNESS, TOE_VERTICAL_STIFFNESS
 from scipy.linalg import eigh
 
-from offwind_pin.turbines.rna import RigidBody
+from offwind_pin.definitions.rotor_nacelle import RigidBody
 
 INTEGRATOR = "implicitfast"
 ROOT = 6

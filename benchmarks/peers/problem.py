@@ -20,10 +20,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 import offwind_pin as ow
+from offwind_pin.definitions.rotor_nacelle import RigidBody
 from offwind_pin.structure.chain import Chain, build_chain
 from offwind_pin.structure.frustum import AxialBody
 from offwind_pin.structure.section import frusta, outer_diameter
-from offwind_pin.turbines.rna import RigidBody
 
 sys.path.append(str(Path(__file__).parents[1]))
 

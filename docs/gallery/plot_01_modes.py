@@ -10,7 +10,7 @@ halfway up the tower, its foot below the water, and the soil decides how far the
 import matplotlib.pyplot as plt
 
 import offwind_pin as ow
-from offwind_pin.display.style import PALETTE, mark_levels, styled
+from offwind_pin.display.figures.style import PALETTE, mark_levels, styled
 
 FOUNDATIONS = ("clamped", "coupled_springs", "distributed_springs")
 

@@ -10,7 +10,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import offwind_pin as ow
-from offwind_pin.display.style import BLUE, VERMILLION, styled
+from offwind_pin.display.figures.style import BLUE, VERMILLION, styled
 
 LOAD = np.array([3.0e6, 0, 0, 0, 9.0e6, 0])  # at the yaw bearing, N and N m
 

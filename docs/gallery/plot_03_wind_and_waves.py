@@ -10,7 +10,7 @@ of the blades; the first mode, which the rotor damps, is broad and no more than 
 import matplotlib.pyplot as plt
 
 import offwind_pin as ow
-from offwind_pin.display.style import BLUE, GREEN, VERMILLION, styled
+from offwind_pin.display.figures.style import BLUE, GREEN, VERMILLION, styled
 from offwind_pin.signal.spectra import power_spectral_density
 
 RAMP, DURATION, DT = 30.0, 180.0, 0.05

@@ -11,7 +11,7 @@ and the harmonics of the steep wave shake the first mode.
 import matplotlib.pyplot as plt
 
 import offwind_pin as ow
-from offwind_pin.display.style import BLUE, VERMILLION, styled
+from offwind_pin.display.figures.style import BLUE, VERMILLION, styled
 
 HEIGHT, PERIOD, PERIODS = 10.0, 11.0, 20
 

@@ -14,9 +14,9 @@ import numpy as np
 import yaml
 
 import offwind_pin as ow
-from offwind_pin.display.style import BLUE, GREEN, VERMILLION, styled
+from offwind_pin.display.figures.style import BLUE, GREEN, VERMILLION, styled
 
-SHIPPED = Path(ow.__file__).parent / "turbines" / "library" / "oc3_phase2.yaml"
+SHIPPED = Path(ow.__file__).parent / "definitions" / "library" / "oc3_phase2.yaml"
 DEPTHS, DISPLACEMENTS = (0.0, 12.0, 36.0), np.array([0.005, 0.02, 0.05, 0.2])
 
 

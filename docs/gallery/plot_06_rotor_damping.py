@@ -11,8 +11,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import offwind_pin as ow
-from offwind_pin.display.style import BLUE, GREEN, VERMILLION, styled
-from offwind_pin.loads.rotor_thrust import Control
+from offwind_pin.display.figures.style import BLUE, GREEN, VERMILLION, styled
+from offwind_pin.loads.wind.rotor_thrust import Control
 
 WINDS = np.arange(4.0, 25.0, 1.0)
 CONTROLS: tuple[Control, ...] = ("lagged", "instant")

@@ -11,7 +11,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import offwind_pin as ow
-from offwind_pin.display.style import BLUE, mark_levels, styled
+from offwind_pin.display.figures.style import BLUE, mark_levels, styled
 
 RAMP, DURATION = 20.0, 100.0
 

@@ -11,7 +11,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import offwind_pin as ow
-from offwind_pin.display.style import BLUE, VERMILLION, styled
+from offwind_pin.display.figures.style import BLUE, VERMILLION, styled
 
 MODES = ("FA1", "SS1", "FA2", "SS2")
 

@@ -9,53 +9,58 @@
 
 from offwind_pin.analysis.aerodynamic_damping import aerodynamic_damping
 from offwind_pin.analysis.build import build
-from offwind_pin.analysis.condensation import Condensation, condense
-from offwind_pin.analysis.equivalent_damping import equivalent_damping
-from offwind_pin.analysis.identify import Identification, Parameter, identify_soil
+from offwind_pin.analysis.foundation.condensation import Condensation, condense
+from offwind_pin.analysis.foundation.equivalent_damping import equivalent_damping
+from offwind_pin.analysis.foundation.pile_only import pile_only
+from offwind_pin.analysis.foundation.pushover import Pushover, pushover
+from offwind_pin.analysis.foundation.study.study import SoilOverview, soil_overview
 from offwind_pin.analysis.integrators import GeneralizedAlpha, SciPyIVP
 from offwind_pin.analysis.modal import ModalResult, modes
-from offwind_pin.analysis.pile import pile_only
-from offwind_pin.analysis.pushover import Pushover, pushover
+from offwind_pin.analysis.simulate import simulate
 from offwind_pin.analysis.static import StaticResult, static
-from offwind_pin.analysis.targets import DeflectionTarget, FrequencyTarget, ShapeTarget
-from offwind_pin.analysis.transient import simulate
-from offwind_pin.campaign.export import export_urdf
-from offwind_pin.campaign.soil_files import write_soil
-from offwind_pin.campaign.soil_overview import SoilOverview, soil_overview
-from offwind_pin.dynamics.irregular_sea import Crest, IrregularWaves
-from offwind_pin.dynamics.measured_sea import MeasuredWaves
-from offwind_pin.dynamics.sea import RegularWaves, StillWater, StreamWaves
+from offwind_pin.analysis.tower_drag import tower_drag
+from offwind_pin.analysis.updating.identify_soil import Identification, Parameter, identify_soil
+from offwind_pin.analysis.updating.targets import DeflectionTarget, FrequencyTarget, ShapeTarget
+from offwind_pin.base.errors import InputError, InterruptedSimulation, OffwindError, SolverError
+from offwind_pin.definitions.reader import load_turbine, shipped_turbines
+from offwind_pin.definitions.rotor_disc import rotor_disc
+from offwind_pin.definitions.tuned_mass_damper import DampedAbsorber, den_hartog
+from offwind_pin.definitions.turbine import Turbine
+from offwind_pin.display.report.soil_folder import write_soil
 from offwind_pin.dynamics.system import System
-from offwind_pin.dynamics.wind_loads import tower_drag
-from offwind_pin.errors import InputError, InterruptedSimulation, OffwindError, SolverError
-from offwind_pin.loads.current import (
+from offwind_pin.formats.urdf_folder import export_urdf
+from offwind_pin.loads.earthquake.ground_motion import GroundMotion
+from offwind_pin.loads.sea.current import (
     CurrentSum,
     CurrentTable,
     PowerLawCurrent,
     SurfaceCurrent,
     UniformCurrent,
 )
-from offwind_pin.loads.ground_motion import GroundMotion
-from offwind_pin.loads.rotor_thrust import RotorThrust
-from offwind_pin.loads.rotor_turbulence import RotorWind
-from offwind_pin.loads.surface_record import SurfaceRecord
-from offwind_pin.loads.synthetic_wind import SyntheticWind
-from offwind_pin.loads.thrust_table import thrust_curve
-from offwind_pin.loads.tower_drag import TowerWind
-from offwind_pin.loads.tower_top import LoadHistory, read_load_history
-from offwind_pin.loads.wave_spectra import JonswapSpectrum, TableSpectrum, TmaSpectrum, WhiteNoise
-from offwind_pin.loads.wave_spreading import Spreading
-from offwind_pin.loads.wind_profile import ExtremeOperatingGust, LogLaw, PowerLaw, WindSeries
-from offwind_pin.signal.accelerations import Accelerations, read_accelerations
-from offwind_pin.signal.cross_spectra import CrossSpectra, cross_spectral_matrix
-from offwind_pin.signal.free_decay import FreeDecay, free_decay
-from offwind_pin.signal.modal_assurance import modal_assurance
-from offwind_pin.signal.operational_modes import OperationalModes, operational_modes
-from offwind_pin.solve.steps import AdaptiveStep, FixedStep
-from offwind_pin.turbines.definition import Turbine
-from offwind_pin.turbines.reader import load_turbine, shipped_turbines
-from offwind_pin.turbines.rotor_disc import rotor_disc
-from offwind_pin.turbines.tuned_mass import DampedAbsorber, den_hartog
+from offwind_pin.loads.sea.irregular_waves import Crest, IrregularWaves
+from offwind_pin.loads.sea.measured_waves import MeasuredWaves
+from offwind_pin.loads.sea.sea import RegularWaves, StillWater, StreamWaves
+from offwind_pin.loads.sea.waves.spectra import (
+    JonswapSpectrum,
+    TableSpectrum,
+    TmaSpectrum,
+    WhiteNoise,
+)
+from offwind_pin.loads.sea.waves.spreading import Spreading
+from offwind_pin.loads.sea.waves.surface_record import SurfaceRecord
+from offwind_pin.loads.tower_top.load_history import LoadHistory, read_load_history
+from offwind_pin.loads.wind.profiles import ExtremeOperatingGust, LogLaw, PowerLaw, WindSeries
+from offwind_pin.loads.wind.rotor_effective_wind import RotorWind
+from offwind_pin.loads.wind.rotor_thrust import RotorThrust
+from offwind_pin.loads.wind.synthetic_thrust import SyntheticWind
+from offwind_pin.loads.wind.thrust_table import thrust_curve
+from offwind_pin.loads.wind.tower_drag import TowerWind
+from offwind_pin.signal.operational_modes.accelerations import Accelerations, read_accelerations
+from offwind_pin.signal.operational_modes.cross_spectra import CrossSpectra, cross_spectral_matrix
+from offwind_pin.signal.operational_modes.free_decay import FreeDecay, free_decay
+from offwind_pin.signal.operational_modes.identify import OperationalModes, operational_modes
+from offwind_pin.signal.operational_modes.modal_assurance import modal_assurance
+from offwind_pin.solvers.steps import AdaptiveStep, FixedStep
 
 __all__ = [
     "Accelerations",

@@ -16,18 +16,23 @@ import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
+from offwind_pin.analysis.foundation.study.state import (
+    SoilState,
+    reached_statically,
+    soil_displacement_reached,
+    soil_springs,
+)
 from offwind_pin.analysis.modal import ModalResult
 from offwind_pin.analysis.static import StaticResult
-from offwind_pin.campaign.soil_state import SoilState, reached_statically
-from offwind_pin.campaign.summaries import moment_spectrum
-from offwind_pin.display import plots as pictures
-from offwind_pin.display import soil_plots
-from offwind_pin.display.identified_plots import singular_value_plot
-from offwind_pin.display.style import save_figure
+from offwind_pin.base.errors import InputError
+from offwind_pin.base.whole_files import whole_file
+from offwind_pin.display.figures import results as pictures
+from offwind_pin.display.figures import soil as soil_plots
+from offwind_pin.display.figures.operational_modes import singular_value_plot
+from offwind_pin.display.figures.style import save_figure
 from offwind_pin.dynamics.system import System
-from offwind_pin.errors import InputError
-from offwind_pin.results.files import whole_file
-from offwind_pin.signal.operational_modes import OperationalModes
+from offwind_pin.signal.moment_spectrum import moment_spectrum
+from offwind_pin.signal.operational_modes.identify import OperationalModes
 
 __all__ = [
     "mode_shapes",
@@ -98,7 +103,7 @@ def p_y_utilisation(system: System, state: StaticResult | xr.Dataset) -> Figure:
     ------
     InputError : the system has no p-y springs, or the run recorded nothing along its pile
     """
-    soil = pictures.soil_springs(system)
+    soil = soil_springs(system)
     if soil is None:
         raise InputError(
             "p_y_utilisation, system",
@@ -109,7 +114,7 @@ def p_y_utilisation(system: System, state: StaticResult | xr.Dataset) -> Figure:
     if isinstance(state, StaticResult):
         reached = reached_statically(system, soil, state)
     elif float(state["height"].min()) <= float(soil.height.min()) + 1e-6:
-        reached = pictures.soil_displacement_reached(state, soil)
+        reached = soil_displacement_reached(state, soil)
     else:
         low = float(state["height"].min())
         allowed = f"heights down to the toe (z = {soil.height.min():g} m)"

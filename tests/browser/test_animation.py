@@ -13,9 +13,9 @@ from selenium.webdriver.common.by import By
 from selenium.webdriver.support.ui import WebDriverWait
 
 import offwind_pin as ow
-from offwind_pin.display.animation import animate
-from offwind_pin.display.motion import FRAMES, mode_motion
-from offwind_pin.display.scene import CYCLE
+from offwind_pin.display.viewer.mode_motion import FRAMES, mode_motion
+from offwind_pin.display.viewer.mode_page import animate
+from offwind_pin.display.viewer.scene import CYCLE
 
 pytestmark = pytest.mark.browser
 

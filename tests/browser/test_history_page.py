@@ -13,8 +13,8 @@ from selenium import webdriver
 from selenium.webdriver.common.by import By
 
 import offwind_pin as ow
-from offwind_pin.display.frames import Frames, frames
-from offwind_pin.display.history_page import time_history_page
+from offwind_pin.display.viewer.history_frames import Frames, frames
+from offwind_pin.display.viewer.history_page import time_history_page
 
 pytestmark = pytest.mark.browser
 

@@ -21,11 +21,11 @@ from selenium import webdriver
 from selenium.webdriver.common.by import By
 
 import offwind_pin as ow
-from offwind_pin.campaign.run import modes_to_dataset
-from offwind_pin.display.frames import Frames, frames
-from offwind_pin.display.history_page import ARROW_SHARE, colour_ramp, time_history_page
-from offwind_pin.display.modes_page import render_modes
-from offwind_pin.display.shapes import Shapes, shapes
+from offwind_pin.cases.run import modes_to_dataset
+from offwind_pin.display.viewer.history_frames import Frames, frames
+from offwind_pin.display.viewer.history_page import ARROW_SHARE, colour_ramp, time_history_page
+from offwind_pin.display.viewer.mode_frames import Shapes, shapes
+from offwind_pin.display.viewer.modes_page import render_modes
 from offwind_pin.structure.meshes import FACETS
 
 pytestmark = pytest.mark.browser

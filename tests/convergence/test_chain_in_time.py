@@ -14,9 +14,9 @@ from scipy.integrate import solve_ivp
 import offwind_pin as ow
 from offwind_pin.analysis.integrators import GeneralizedAlpha, MotionState, Records
 from offwind_pin.analysis.static import load_scale
-from offwind_pin.dynamics.compiled_chain import CompiledChain
-from offwind_pin.solve.generalized_alpha import Method, start
-from offwind_pin.solve.steps import FixedStep
+from offwind_pin.dynamics.compiled.chain import CompiledChain
+from offwind_pin.solvers.generalized_alpha import Method, start
+from offwind_pin.solvers.steps import FixedStep
 
 Array = NDArray[np.float64]
 

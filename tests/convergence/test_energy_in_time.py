@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 import offwind_pin as ow
 from offwind_pin.analysis.integrators import GeneralizedAlpha
-from offwind_pin.loads.tower_top import TowerTopLoad
-from offwind_pin.solve.steps import FixedStep
+from offwind_pin.loads.tower_top.load_history import TowerTopLoad
+from offwind_pin.solvers.steps import FixedStep
 
 Array = NDArray[np.float64]
 

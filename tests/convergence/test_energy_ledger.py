@@ -11,8 +11,8 @@ from helpers.numerics import fitted_order
 from numpy.typing import NDArray
 
 import offwind_pin as ow
-from offwind_pin.turbines.definition import RotorNacelleRNA
-from offwind_pin.turbines.soil import TanhCurve
+from offwind_pin.definitions.soil.springs import TanhCurve
+from offwind_pin.definitions.turbine import RotorNacelleRNA
 
 Array = NDArray[np.float64]
 

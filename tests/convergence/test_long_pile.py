@@ -7,8 +7,8 @@ import pytest
 from helpers.numerics import fitted_order
 
 import offwind_pin as ow
-from offwind_pin.analysis.condensation import condense
-from offwind_pin.analysis.pile import pile_only
+from offwind_pin.analysis.foundation.condensation import condense
+from offwind_pin.analysis.foundation.pile_only import pile_only
 from offwind_pin.structure.chain import ELEMENT_LENGTH
 from offwind_pin.verification.long_pile import Array, LongPile
 

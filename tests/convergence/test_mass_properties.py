@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import offwind_pin as ow
-from offwind_pin.analysis.foundations import make_foundation
+from offwind_pin.analysis.foundation.registry import make_foundation
 from offwind_pin.structure.chain import build_chain
 from offwind_pin.structure.frustum import AxialBody
 from offwind_pin.verification.plain_tubes import tube

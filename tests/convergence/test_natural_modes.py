@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from offwind_pin.solve.eigen import natural_modes
+from offwind_pin.solvers.eigen import natural_modes
 
 N, MASS, SPRING = 12, 3.0, 50.0
 K = SPRING * (2 * np.eye(N) - np.eye(N, k=1) - np.eye(N, k=-1))

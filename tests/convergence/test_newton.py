@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from offwind_pin.solve.newton import newton
+from offwind_pin.solvers.newton import newton
 
 Array = NDArray[np.float64]
 

@@ -9,7 +9,7 @@ from helpers.numerics import fitted_order
 from helpers.oscillators import Array, ElasticPendulum, Oscillator
 from scipy.integrate import solve_ivp
 
-from offwind_pin.solve.generalized_alpha import CONVERGED, DIVERGED, NOT_FINITE, Method
+from offwind_pin.solvers.generalized_alpha import CONVERGED, DIVERGED, NOT_FINITE, Method
 
 RADII = [0.0, 0.5, 0.9, 1.0]
 

@@ -9,7 +9,7 @@ import pinocchio as pin
 from numpy.typing import NDArray
 
 import offwind_pin as ow
-from offwind_pin.dynamics.equations import Equations
+from offwind_pin.dynamics.reference.equations import Equations
 from offwind_pin.structure.section import lump
 
 Array = NDArray[np.float64]

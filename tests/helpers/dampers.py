@@ -3,7 +3,7 @@
 from typing import Any
 
 import offwind_pin as ow
-from offwind_pin.turbines.tuned_mass import TunedMassDamper
+from offwind_pin.definitions.tuned_mass_damper import TunedMassDamper
 
 
 def damper(name: str, z: float, direction: str, mass: float = 2e5, **keys: Any) -> TunedMassDamper:

@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from offwind_pin.compiled import kernel
-from offwind_pin.solve.generalized_alpha import (
+from offwind_pin.base.kernels import kernel
+from offwind_pin.solvers.generalized_alpha import (
     CONVERGED,
     DIVERGED,
     Method,

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import lu_factor, lu_solve
 
-from offwind_pin.solve.generalized_alpha import CONVERGED, Method, advance, start
+from offwind_pin.solvers.generalized_alpha import CONVERGED, Method, advance, start
 
 Array = NDArray[np.float64]
 

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import offwind_pin as ow
-from offwind_pin.loads.points import PointForces, PointMotion, PointTangents
+from offwind_pin.loads.point_load import PointForces, PointMotion, PointTangents
 
 Array = NDArray[np.float64]
 

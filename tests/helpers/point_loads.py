@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from offwind_pin.loads.points import PointForces, PointMotion, PointTangents
+from offwind_pin.loads.point_load import PointForces, PointMotion, PointTangents
 
 Array = NDArray[np.float64]
 

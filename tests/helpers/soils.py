@@ -1,7 +1,7 @@
 """The benchmark's pile in other grounds than its own."""
 
 import offwind_pin as ow
-from offwind_pin.turbines.soil import DistributedSprings, Hysteresis
+from offwind_pin.definitions.soil.springs import DistributedSprings, Hysteresis
 
 
 def with_springs(turbine: ow.Turbine, springs: DistributedSprings) -> ow.Turbine:

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from offwind_pin.loads.points import PointMotion
-from offwind_pin.turbines.base import Array
+from offwind_pin.base.definition import Array
+from offwind_pin.loads.point_load import PointMotion
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,7 +8,7 @@ import numpy as np
 from scipy import linalg
 from scipy.signal import lfilter
 
-from offwind_pin.turbines.base import Array
+from offwind_pin.base.definition import Array
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 import offwind_pin as ow
-from offwind_pin.dynamics.compiled_chain import CompiledChain
+from offwind_pin.dynamics.compiled.chain import CompiledChain
 from offwind_pin.structure.section import lump
 
 force = st.floats(-2e6, 2e6)

@@ -11,10 +11,10 @@ from helpers.states import State
 from numpy.typing import NDArray
 
 import offwind_pin as ow
-from offwind_pin.dynamics.compiled_chain import CompiledChain
-from offwind_pin.dynamics.kinematics import AxisPoints
-from offwind_pin.dynamics.poses import body_poses
-from offwind_pin.loads.points import PointMotion
+from offwind_pin.dynamics.compiled.chain import CompiledChain
+from offwind_pin.dynamics.reference.chain_kinematics import AxisPoints
+from offwind_pin.dynamics.reference.poses import body_poses
+from offwind_pin.loads.point_load import PointMotion
 
 Array = NDArray[np.float64]
 WORLD = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED

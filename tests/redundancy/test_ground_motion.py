@@ -16,8 +16,8 @@ from helpers.states import State, joint_kinds, random_state, without_joint_sprin
 from numpy.typing import NDArray
 
 import offwind_pin as ow
-from offwind_pin.dynamics.compiled_chain import CompiledChain
-from offwind_pin.loads.points import PointLoad
+from offwind_pin.dynamics.compiled.chain import CompiledChain
+from offwind_pin.loads.point_load import PointLoad
 
 Array = NDArray[np.float64]
 

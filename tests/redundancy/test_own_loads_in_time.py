@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 import offwind_pin as ow
 from offwind_pin.analysis.integrators import Integrator, SciPyIVP
-from offwind_pin.loads.points import PointForces, PointLoad
-from offwind_pin.loads.tower_top import TowerTopLoad
+from offwind_pin.loads.point_load import PointForces, PointLoad
+from offwind_pin.loads.tower_top.load_history import TowerTopLoad
 
 Array = NDArray[np.float64]
 

@@ -11,8 +11,8 @@ import pytest
 from helpers.dampers import several
 
 import offwind_pin as ow
+from offwind_pin.base.definition import Array
 from offwind_pin.structure.urdf import write_urdf
-from offwind_pin.turbines.base import Array
 
 SHIPPED = Path(__file__).resolve().parents[2] / "urdf"
 

@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 
 import offwind_pin as ow
 from offwind_pin.analysis.static import load_scale
-from offwind_pin.dynamics.compiled_chain import CompiledChain
-from offwind_pin.loads.tower_top import TowerTopLoad
-from offwind_pin.solve.generalized_alpha import Method
+from offwind_pin.dynamics.compiled.chain import CompiledChain
+from offwind_pin.loads.tower_top.load_history import TowerTopLoad
+from offwind_pin.solvers.generalized_alpha import Method
 from offwind_pin.structure.section import lump
 
 Array = NDArray[np.float64]

@@ -13,8 +13,8 @@ from scipy.linalg import eigh
 
 import offwind_pin as ow
 from offwind_pin.analysis.integrators import GeneralizedAlpha, SciPyIVP
-from offwind_pin.loads.tower_top import TowerTopLoad
-from offwind_pin.solve.steps import FixedStep
+from offwind_pin.loads.tower_top.load_history import TowerTopLoad
+from offwind_pin.solvers.steps import FixedStep
 from offwind_pin.structure.section import shear_flexibility
 
 Array = NDArray[np.float64]

@@ -21,11 +21,11 @@ from helpers.states import (
 from numpy.typing import NDArray
 
 import offwind_pin as ow
-from offwind_pin.dynamics.compiled_chain import CompiledChain
-from offwind_pin.dynamics.equations import Equations
-from offwind_pin.dynamics.kinematics import AxisPoints, ChainMotion
-from offwind_pin.loads.points import PointLoad
-from offwind_pin.loads.tower_top import TowerTopLoad, constant_load
+from offwind_pin.dynamics.compiled.chain import CompiledChain
+from offwind_pin.dynamics.reference.chain_kinematics import AxisPoints, ChainMotion
+from offwind_pin.dynamics.reference.equations import Equations
+from offwind_pin.loads.point_load import PointLoad
+from offwind_pin.loads.tower_top.load_history import TowerTopLoad, constant_load
 
 Array = NDArray[np.float64]
 

@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 import offwind_pin as ow
 from offwind_pin.analysis.integrators import GeneralizedAlpha
-from offwind_pin.dynamics.compiled_chain import CompiledChain
-from offwind_pin.loads.points import PointLoad
-from offwind_pin.loads.tower_top import TowerTopLoad
-from offwind_pin.solve.steps import AdaptiveStep, FixedStep, StepPolicy
+from offwind_pin.dynamics.compiled.chain import CompiledChain
+from offwind_pin.loads.point_load import PointLoad
+from offwind_pin.loads.tower_top.load_history import TowerTopLoad
+from offwind_pin.solvers.steps import AdaptiveStep, FixedStep, StepPolicy
 
 Array = NDArray[np.float64]
 

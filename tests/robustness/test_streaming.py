@@ -12,7 +12,7 @@ from helpers.own_loads import FromHistory, HardeningRestraint
 
 import offwind_pin as ow
 from offwind_pin.analysis.integrators import Integrator
-from offwind_pin.loads.tower_top import TowerTopLoad
+from offwind_pin.loads.tower_top.load_history import TowerTopLoad
 from offwind_pin.results.blocks import BLOCK_FOLDER, time_reached
 
 DURATION, OUTPUT = 90.0, 0.5

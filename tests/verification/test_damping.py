@@ -5,9 +5,9 @@ import pytest
 
 import offwind_pin as ow
 from offwind_pin.analysis.integrators import GeneralizedAlpha
-from offwind_pin.dynamics.compiled_chain import CompiledChain
-from offwind_pin.solve.generalized_alpha import start
-from offwind_pin.solve.steps import FixedStep
+from offwind_pin.dynamics.compiled.chain import CompiledChain
+from offwind_pin.solvers.generalized_alpha import start
+from offwind_pin.solvers.steps import FixedStep
 
 RATIOS = {"FA1": 0.005, "SS1": 0.005, "FA2": 0.0127, "SS2": 0.0133}
 

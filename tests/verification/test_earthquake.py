@@ -11,9 +11,9 @@ from helpers.numerics import fitted_order
 from numpy.typing import NDArray
 
 import offwind_pin as ow
+from offwind_pin.definitions.soil.depth_profile import DepthLine
+from offwind_pin.definitions.soil.springs import CoupledSprings, LinearModulus
 from offwind_pin.signal.response_spectrum import response_spectrum
-from offwind_pin.turbines.depth_profile import DepthLine
-from offwind_pin.turbines.soil import CoupledSprings, LinearModulus
 from offwind_pin.verification.plain_tubes import tube
 
 Array = NDArray[np.float64]

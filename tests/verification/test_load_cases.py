@@ -11,9 +11,9 @@ import pytest
 import xarray as xr
 
 import offwind_pin as ow
-from offwind_pin.campaign.case import Case, ModalAnalysis, load_case, shipped_cases
-from offwind_pin.campaign.run import run_case
-from offwind_pin.campaign.settling import settle
+from offwind_pin.cases.case import Case, ModalAnalysis, load_case, shipped_cases
+from offwind_pin.cases.run import run_case
+from offwind_pin.cases.settling import settle
 
 ALWAYS = {"case", "wall_s", "simulated_s", "realtime_factor", "status"}
 

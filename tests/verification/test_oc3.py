@@ -7,10 +7,10 @@ import pytest
 from numpy.typing import NDArray
 
 import offwind_pin as ow
-from offwind_pin.loads.points import PointMotion
+from offwind_pin.definitions.soil.depth_profile import DepthTable
+from offwind_pin.definitions.soil.springs import LinearModulus
+from offwind_pin.loads.point_load import PointMotion
 from offwind_pin.structure.chain import Element, Elements
-from offwind_pin.turbines.depth_profile import DepthTable
-from offwind_pin.turbines.soil import LinearModulus
 
 SWAY_AND_ROCKING = np.ix_([0, 4], [0, 4])
 

@@ -14,17 +14,17 @@ import pytest
 from helpers.soils import with_springs
 
 import offwind_pin as ow
-from offwind_pin.loads.ground import Ground
-from offwind_pin.loads.soil_families import (
+from offwind_pin.base.definition import Array
+from offwind_pin.definitions.soil.layers import LayeredGround
+from offwind_pin.definitions.soil.springs import DistributedSprings
+from offwind_pin.definitions.turbine import Member, Station
+from offwind_pin.loads.soil.curves.layered import (
     base_moment_curve,
     base_shear_curve,
     lateral_curves,
     rocking_curves,
 )
-from offwind_pin.turbines.base import Array
-from offwind_pin.turbines.definition import Member, Station
-from offwind_pin.turbines.soil import DistributedSprings
-from offwind_pin.turbines.soil_layers import LayeredGround
+from offwind_pin.loads.soil.soil_profile import Ground
 
 TILL = LayeredGround.model_validate(
     {

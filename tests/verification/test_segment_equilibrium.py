@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 import offwind_pin as ow
 from offwind_pin.analysis.integrators import GeneralizedAlpha
 from offwind_pin.analysis.static import load_scale
-from offwind_pin.dynamics.compiled_chain import CompiledChain
-from offwind_pin.dynamics.recorder_arrays import Cuts, Segments
-from offwind_pin.loads.tower_top import TowerTopLoad
-from offwind_pin.solve.steps import FixedStep
+from offwind_pin.dynamics.compiled.chain import CompiledChain
+from offwind_pin.dynamics.compiled.recorder_arrays import Cuts, Segments
+from offwind_pin.loads.tower_top.load_history import TowerTopLoad
+from offwind_pin.solvers.steps import FixedStep
 from offwind_pin.structure.section import lump
 
 Array = NDArray[np.float64]

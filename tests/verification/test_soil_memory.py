@@ -10,11 +10,11 @@ from helpers.soils import hysteretic
 from numpy.typing import NDArray
 
 import offwind_pin as ow
-from offwind_pin.analysis import transient
-from offwind_pin.dynamics.compiled_chain import CompiledChain
-from offwind_pin.dynamics.restraints import LinearRestraint
-from offwind_pin.loads.points import PointForces, PointMotion, PointTangents
-from offwind_pin.turbines.definition import Turbine
+from offwind_pin.analysis import simulate as transient
+from offwind_pin.definitions.turbine import Turbine
+from offwind_pin.dynamics.compiled.chain import CompiledChain
+from offwind_pin.loads.point_load import PointForces, PointMotion, PointTangents
+from offwind_pin.loads.root_restraint import LinearRestraint
 
 Array = NDArray[np.float64]
 

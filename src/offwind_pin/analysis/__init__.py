@@ -1,1 +1,1 @@
-"""analysis"""
+"""Static, modal, time-domain and other analyses of a system."""

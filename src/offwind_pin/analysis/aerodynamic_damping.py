@@ -8,11 +8,11 @@ import numpy as np
 
 from offwind_pin.analysis.modal import ModalResult, modes
 from offwind_pin.analysis.static import StaticResult, static
+from offwind_pin.base.definition import Array
+from offwind_pin.definitions.rotor_disc import rotor_disc
 from offwind_pin.dynamics.system import System
-from offwind_pin.loads.rotor_thrust import CONTROL_TIME, Control, RotorThrust
-from offwind_pin.loads.wind_history import constant_wind
-from offwind_pin.turbines.base import Array
-from offwind_pin.turbines.rotor_disc import rotor_disc
+from offwind_pin.loads.wind.history import constant_wind
+from offwind_pin.loads.wind.rotor_thrust import CONTROL_TIME, Control, RotorThrust
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,12 +10,18 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from offwind_pin.analysis.static import load_scale
-from offwind_pin.dynamics.compiled_chain import CompiledChain, Run
-from offwind_pin.dynamics.recorder_arrays import Cuts, RecorderArrays, Segments
-from offwind_pin.errors import InputError
-from offwind_pin.solve.generalized_alpha import CONVERGED, REASONS, Method, compiled_advance, start
-from offwind_pin.solve.steps import FixedStep, StepPolicy
-from offwind_pin.turbines.base import Array
+from offwind_pin.base.definition import Array
+from offwind_pin.base.errors import InputError
+from offwind_pin.dynamics.compiled.chain import CompiledChain, Run
+from offwind_pin.dynamics.compiled.recorder_arrays import Cuts, RecorderArrays, Segments
+from offwind_pin.solvers.generalized_alpha import (
+    CONVERGED,
+    REASONS,
+    Method,
+    compiled_advance,
+    start,
+)
+from offwind_pin.solvers.steps import FixedStep, StepPolicy
 
 _log = logging.getLogger(__name__)
 

@@ -7,18 +7,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from offwind_pin.analysis.static import StaticResult, static
-from offwind_pin.dynamics.equations import Equations
+from offwind_pin.base.definition import Array
+from offwind_pin.base.errors import InputError
+from offwind_pin.base.mode_labels import FAMILIES
+from offwind_pin.dynamics.reference.equations import Equations
 from offwind_pin.dynamics.system import System
-from offwind_pin.errors import InputError
-from offwind_pin.solve.eigen import natural_modes
-from offwind_pin.turbines.base import Array
+from offwind_pin.solvers.eigen import natural_modes
 
-FAMILIES = {"FA": "fore-aft", "SS": "side-side", "T": "torsion", "V": "vertical"}
-_DAMPERS = {"TMD": "tuned mass damper"}
 _FAMILY_OF_JOINT = {"px": "FA", "ry": "FA", "py": "SS", "rx": "SS", "rz": "T", "pz": "V"}
 _MOSTLY = 0.5
 """Share of the potential energy in springs of tuned mass dampers that makes a mode theirs."""
-_ORDINALS = {1: "first", 2: "second", 3: "third", 4: "fourth", 5: "fifth", 6: "sixth"}
 _EQUAL = 1e-6
 """Relative difference of squared frequencies below which two modes are one pair."""
 _SHOWN = {"FA": 0, "SS": 1, "V": 2, "T": 5}
@@ -73,18 +71,6 @@ class ModalResult:
     def direction(self, label: str) -> str:
         """FA, SS, T or V: how the axis moves in a mode, one of tuned mass dampers as well."""
         return list(FAMILIES)[int(np.argmax(self.participation[self.index(label)]))]
-
-
-def mode_family(label: str) -> str:
-    """FA, SS, T, V or TMD."""
-    return label.rstrip("0123456789")
-
-
-def mode_name(label: str) -> str:
-    """A label in words: ``FA2`` is "second fore-aft"."""
-    family = mode_family(label)
-    order = int(label.removeprefix(family))
-    return f"{_ORDINALS.get(order, f'{order}th')} {(FAMILIES | _DAMPERS)[family]}"
 
 
 def modes(system: System, n: int = 8, about: StaticResult | None = None) -> ModalResult:

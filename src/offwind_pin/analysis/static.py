@@ -7,13 +7,13 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from offwind_pin.dynamics.compiled_chain import CompiledChain
+from offwind_pin.base.definition import Array
+from offwind_pin.base.errors import InputError, SolverError
+from offwind_pin.dynamics.compiled.chain import CompiledChain
 from offwind_pin.dynamics.system import System
-from offwind_pin.errors import InputError, SolverError
-from offwind_pin.loads.points import PointLoad
-from offwind_pin.loads.tower_top import constant_load
-from offwind_pin.solve.newton import newton
-from offwind_pin.turbines.base import Array
+from offwind_pin.loads.point_load import PointLoad
+from offwind_pin.loads.tower_top.load_history import constant_load
+from offwind_pin.solvers.newton import newton
 
 RELATIVE_TOLERANCE = 1e-10
 """Largest entry of the residual over :func:`load_scale`. Displacements of soil nodes are

@@ -1,1 +1,1 @@
-"""display"""
+"""Figures, reports and viewers of results."""

@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
-
-from offwind_pin.analysis.modal import FAMILIES
 
 _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 MINUS, DASH, TIMES = "\u2212", "\u2013", "\u00d7"
@@ -80,11 +77,6 @@ def significant_digits(value: float) -> int:
     """How many digits a number was given with: 3 for 0.236."""
     mantissa = f"{abs(value):.10g}".split("e")[0]
     return len(mantissa.replace(".", "").lstrip("0"))
-
-
-def is_mode(name: str) -> bool:
-    """Whether a name is a mode's label."""
-    return re.fullmatch(rf"({'|'.join((*FAMILIES, 'TMD'))})[1-9]\d*", name) is not None
 
 
 def relative_difference(ours: float, reference: float) -> float | None:

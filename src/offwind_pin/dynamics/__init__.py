@@ -1,1 +1,1 @@
-"""dynamics"""
+"""A system and its equations of motion."""

@@ -9,18 +9,18 @@ from typing import TYPE_CHECKING
 
 import pinocchio as pin
 
-from offwind_pin.dynamics.foundations import Foundation
-from offwind_pin.dynamics.sea import Sea
-from offwind_pin.dynamics.water_loads import Waters
-from offwind_pin.loads.ground_motion import GroundMotion
-from offwind_pin.loads.points import PointLoad
+from offwind_pin.base.definition import Array
+from offwind_pin.definitions.turbine import Turbine
+from offwind_pin.loads.earthquake.ground_motion import GroundMotion
+from offwind_pin.loads.point_load import PointLoad
+from offwind_pin.loads.sea.hydrodynamic_loads import Waters
+from offwind_pin.loads.sea.sea import Sea
+from offwind_pin.loads.soil.foundation import Foundation
 from offwind_pin.structure.chain import Chain
-from offwind_pin.structure.model import Scratch
-from offwind_pin.turbines.base import Array
-from offwind_pin.turbines.definition import Turbine
+from offwind_pin.structure.pinocchio_model import Scratch
 
 if TYPE_CHECKING:
-    from offwind_pin.dynamics.equations import Equations
+    from offwind_pin.dynamics.reference.equations import Equations
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,6 +74,6 @@ class System:
         memory : (m,) what soil and foundation keep of their past, as in :class:`StaticResult`
         ground_motion : of the ground below; root joints then move relative to it
         """
-        from offwind_pin.dynamics.equations import Equations
+        from offwind_pin.dynamics.reference.equations import Equations
 
         return Equations(self, loads, ramp_time, memory, ground_motion)

@@ -1,1 +1,1 @@
-"""loads"""
+"""The load contract, and the loads by origin."""

@@ -11,7 +11,8 @@ from weakref import WeakValueDictionary
 import numpy as np
 from numba import objmode
 
-from offwind_pin.loads.points import (
+from offwind_pin.base.definition import Array
+from offwind_pin.loads.point_load import (
     ACCELERATION,
     AXIS,
     DISPLACEMENT,
@@ -25,7 +26,6 @@ from offwind_pin.loads.points import (
     force_kernel,
     tangent_kernel,
 )
-from offwind_pin.turbines.base import Array
 
 _register: WeakValueDictionary[int, PythonLoad] = WeakValueDictionary()
 _numbers = itertools.count()

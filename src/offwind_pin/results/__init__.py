@@ -1,1 +1,1 @@
-"""results"""
+"""Datasets, blocks, reading."""

@@ -14,8 +14,8 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from offwind_pin.errors import InputError
-from offwind_pin.results.files import whole_file, write_json
+from offwind_pin.base.errors import InputError
+from offwind_pin.base.whole_files import whole_file, write_json
 
 Array = NDArray[np.float64]
 Block = dict[str, Array]

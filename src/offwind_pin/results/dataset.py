@@ -12,8 +12,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from offwind_pin.base.whole_files import append_netcdf
 from offwind_pin.results.blocks import Block, BlockStore
-from offwind_pin.results.files import append_netcdf
 
 Array = NDArray[np.float64]
 

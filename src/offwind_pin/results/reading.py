@@ -6,7 +6,7 @@ from pathlib import Path
 
 import xarray as xr
 
-from offwind_pin.errors import InputError
+from offwind_pin.base.errors import InputError
 
 _TITLE = "offwind-pin"
 
@@ -37,3 +37,8 @@ def open_results(source: Path) -> xr.Dataset:
         allowed = f"a title that begins with {_TITLE!r} (found {title!r})"
         raise InputError("results", str(path), allowed, remedy)
     return data
+
+
+def analysed(histories: xr.Dataset) -> xr.Dataset:
+    """The part after the ramp."""
+    return histories.sel(time=histories.time >= float(histories.attrs.get("ramp_s", 0.0)))

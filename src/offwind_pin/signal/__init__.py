@@ -1,1 +1,1 @@
-"""signal"""
+"""Spectra and response spectra."""

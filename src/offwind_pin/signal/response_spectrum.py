@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import expm
 
-from offwind_pin.compiled import kernel
-from offwind_pin.errors import InputError
+from offwind_pin.base.errors import InputError
+from offwind_pin.base.kernels import kernel
 
 Array = NDArray[np.float64]
 

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import signal
 
-from offwind_pin.errors import InputError
+from offwind_pin.base.errors import InputError
 
 Array = NDArray[np.float64]
 

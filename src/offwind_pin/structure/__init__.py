@@ -1,1 +1,1 @@
-"""structure"""
+"""From definitions to the chain: sections, frusta, joints, URDF, meshes, the Pinocchio model."""

@@ -15,7 +15,10 @@ from typing import Literal, get_args
 
 import numpy as np
 
-from offwind_pin.errors import InputError
+from offwind_pin.base.definition import Array
+from offwind_pin.base.errors import InputError
+from offwind_pin.definitions.rotor_nacelle import RigidBody, lump_rna
+from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.structure.frustum import AxialBody
 from offwind_pin.structure.section import (
     bending_stiffness,
@@ -27,9 +30,6 @@ from offwind_pin.structure.section import (
     torsional_stiffness,
 )
 from offwind_pin.structure.tuned_mass import SlidingMass, sliding_masses
-from offwind_pin.turbines.base import Array
-from offwind_pin.turbines.definition import Turbine
-from offwind_pin.turbines.rna import RigidBody, lump_rna
 
 Stiffness = Literal["flexibility", "midpoint"]
 Element = Literal["euler_bernoulli", "timoshenko"]

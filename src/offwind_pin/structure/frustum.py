@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from offwind_pin.turbines.base import Array
+from offwind_pin.base.definition import Array
 
 
 @dataclass(frozen=True)

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from offwind_pin.base.definition import Array
+from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.structure.chain import Chain, NDArrayInt
 from offwind_pin.structure.frustum import Frustum
 from offwind_pin.structure.section import frusta, outer_diameter
 from offwind_pin.structure.tuned_mass import SlidingMass
-from offwind_pin.turbines.base import Array
-from offwind_pin.turbines.definition import Turbine
 
 FACETS = 32
 """Sides of what is round. Normals are smoothed around it, so that few suffice."""

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from offwind_pin.base.definition import Array
+from offwind_pin.definitions.rotor_nacelle import rotor_apex
+from offwind_pin.definitions.turbine import RigidBodyRNA, RotorNacelleRNA
 from offwind_pin.structure.meshes import FACETS, Mesh, box, loft
-from offwind_pin.turbines.base import Array
-from offwind_pin.turbines.definition import RigidBodyRNA, RotorNacelleRNA
-from offwind_pin.turbines.rna import rotor_apex
 
 _SPAN = np.array([0.0, 0.03, 0.08, 0.14, 0.22, 0.35, 0.5, 0.65, 0.8, 0.9, 0.96, 1.0])
 _CHORD = np.array([0.05, 0.05, 0.053, 0.061, 0.066, 0.06, 0.05, 0.04, 0.03, 0.023, 0.016, 0.005])

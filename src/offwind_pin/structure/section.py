@@ -7,9 +7,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from offwind_pin.base.definition import Array
+from offwind_pin.definitions.turbine import Material, Member, Turbine
 from offwind_pin.structure.frustum import AxialBody, Frustum
-from offwind_pin.turbines.base import Array
-from offwind_pin.turbines.definition import Material, Member, Turbine
 
 _GAUSS_POINTS, _GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(8)
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from offwind_pin.turbines.definition import Turbine
+from offwind_pin.definitions.turbine import Turbine
 
 _JOINTS = {"fore_aft": ("px",), "side_side": ("py",), "both": ("px", "py")}
 

@@ -9,13 +9,13 @@ from typing import Any
 
 import numpy as np
 
+from offwind_pin.base.definition import Array, with_paths
+from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.structure.chain import Chain
 from offwind_pin.structure.meshes import Mesh, body_meshes, damper_disc
 from offwind_pin.structure.rotor import rna_meshes
 from offwind_pin.structure.section import outer_diameter
 from offwind_pin.structure.tuned_mass import SlidingMass
-from offwind_pin.turbines.base import Array, with_paths
-from offwind_pin.turbines.definition import Turbine
 
 _AXIS = {"x": "1 0 0", "y": "0 1 0", "z": "0 0 1"}
 _YELLOW, _WHITE, _RED = "0.93 0.77 0.20 1", "0.88 0.89 0.90 1", "0.75 0.22 0.17 1"

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.linalg import eigh
 from scipy.optimize import brentq
 
-from offwind_pin.turbines.base import Array
+from offwind_pin.base.definition import Array
 
 
 def cantilever_roots(count: int) -> Array:

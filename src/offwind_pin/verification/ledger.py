@@ -20,8 +20,8 @@ from typing import Any, Literal
 import yaml
 from pydantic import Field, TypeAdapter
 
-from offwind_pin.errors import InputError
-from offwind_pin.turbines.base import Definition, NonNegative, Number
+from offwind_pin.base.definition import Definition, NonNegative, Number
+from offwind_pin.base.errors import InputError
 
 Status = Literal["pass", "fail", "not run"]
 

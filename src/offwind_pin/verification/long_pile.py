@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from offwind_pin.turbines.base import Array
-from offwind_pin.turbines.definition import Turbine
+from offwind_pin.base.definition import Array
+from offwind_pin.definitions.turbine import Turbine
 
 
 @dataclass(frozen=True)

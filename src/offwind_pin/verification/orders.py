@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from offwind_pin.turbines.base import Array
+from offwind_pin.base.definition import Array
 
 
 def fitted_order(sizes: Sequence[float] | Array, errors: Sequence[float] | Array) -> float:

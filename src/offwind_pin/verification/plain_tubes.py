@@ -5,13 +5,13 @@ from collections.abc import Sequence
 import numpy as np
 
 from offwind_pin.analysis.static import StaticResult
+from offwind_pin.base.definition import Array
+from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.dynamics.system import System
-from offwind_pin.loads.points import PointLoad
-from offwind_pin.loads.tower_top import constant_load
-from offwind_pin.solve.eigen import natural_modes
-from offwind_pin.solve.newton import newton
-from offwind_pin.turbines.base import Array
-from offwind_pin.turbines.definition import Turbine
+from offwind_pin.loads.point_load import PointLoad
+from offwind_pin.loads.tower_top.load_history import constant_load
+from offwind_pin.solvers.eigen import natural_modes
+from offwind_pin.solvers.newton import newton
 
 YOUNG, SHEAR, DENSITY = 2.0e11, 8.0e10, 8000.0
 LENGTH, DIAMETER, THICKNESS = 100.0, 6.0, 0.06

@@ -7,15 +7,15 @@ from functools import cache
 import numpy as np
 
 from offwind_pin.analysis.build import build
-from offwind_pin.analysis.condensation import condense
+from offwind_pin.analysis.foundation.condensation import condense
 from offwind_pin.analysis.modal import ModalResult, modes
 from offwind_pin.analysis.static import static
-from offwind_pin.dynamics.sea import StillWater
+from offwind_pin.definitions.reader import load_turbine
+from offwind_pin.definitions.soil.depth_profile import DepthLine
+from offwind_pin.definitions.soil.springs import LinearModulus
+from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.dynamics.system import System
-from offwind_pin.turbines.definition import Turbine
-from offwind_pin.turbines.depth_profile import DepthLine
-from offwind_pin.turbines.reader import load_turbine
-from offwind_pin.turbines.soil import LinearModulus
+from offwind_pin.loads.sea.sea import StillWater
 from offwind_pin.verification.ledger import Found
 
 

@@ -14,20 +14,20 @@ from scipy.optimize import least_squares
 from offwind_pin.analysis.aerodynamic_damping import aerodynamic_damping
 from offwind_pin.analysis.build import build
 from offwind_pin.analysis.integrators import GeneralizedAlpha, SciPyIVP
-from offwind_pin.analysis.transient import simulate
-from offwind_pin.campaign.case import TransientAnalysis, load_case
-from offwind_pin.campaign.run import run_case
-from offwind_pin.campaign.summaries import moment_spectrum
-from offwind_pin.campaign.tower_top import tower_top
-from offwind_pin.dynamics.irregular_sea import IrregularWaves
+from offwind_pin.analysis.simulate import simulate
+from offwind_pin.base.definition import Array
+from offwind_pin.cases.case import TransientAnalysis, load_case
+from offwind_pin.cases.run import run_case
+from offwind_pin.cases.tower_top import tower_top
+from offwind_pin.definitions.reader import load_turbine
+from offwind_pin.definitions.rotor_disc import rotor_disc
 from offwind_pin.dynamics.system import System
-from offwind_pin.loads.rotor_thrust import Control, RotorThrust
-from offwind_pin.loads.tower_top import LoadHistory
-from offwind_pin.loads.wind_history import constant_wind
-from offwind_pin.solve.steps import FixedStep
-from offwind_pin.turbines.base import Array
-from offwind_pin.turbines.reader import load_turbine
-from offwind_pin.turbines.rotor_disc import rotor_disc
+from offwind_pin.loads.sea.irregular_waves import IrregularWaves
+from offwind_pin.loads.tower_top.load_history import LoadHistory
+from offwind_pin.loads.wind.history import constant_wind
+from offwind_pin.loads.wind.rotor_thrust import Control, RotorThrust
+from offwind_pin.signal.moment_spectrum import moment_spectrum
+from offwind_pin.solvers.steps import FixedStep
 from offwind_pin.verification.ledger import Found
 from offwind_pin.verification.orders import fitted_order
 

@@ -10,13 +10,13 @@ import numpy as np
 
 from offwind_pin.analysis.build import build
 from offwind_pin.analysis.modal import modes
+from offwind_pin.base.definition import Array
+from offwind_pin.definitions.reader import load_turbine
+from offwind_pin.definitions.rotor_nacelle import RigidBody, lump_rna, point_inertia
+from offwind_pin.definitions.turbine import RigidBodyRNA
 from offwind_pin.dynamics.system import System
 from offwind_pin.structure.section import diameter_and_thickness
 from offwind_pin.structure.urdf import write_urdf
-from offwind_pin.turbines.base import Array
-from offwind_pin.turbines.definition import RigidBodyRNA
-from offwind_pin.turbines.reader import load_turbine
-from offwind_pin.turbines.rna import RigidBody, lump_rna, point_inertia
 from offwind_pin.verification.ledger import Found
 
 _OPTIONS = (

@@ -8,17 +8,17 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.special import jvp, yvp
 
-from offwind_pin.dynamics.irregular_sea import Crest, IrregularWaves
-from offwind_pin.loads.diffraction import inertia_factor
-from offwind_pin.loads.dispersion import wave_number
-from offwind_pin.loads.linear_waves import LinearWaves
-from offwind_pin.loads.morison import MorisonForce
-from offwind_pin.loads.points import PointMotion
-from offwind_pin.loads.second_order_waves import SecondOrderWaves
-from offwind_pin.loads.steady_wave import SteadyWave
-from offwind_pin.loads.strips import Strips
-from offwind_pin.loads.water_series import WaterSeries, WaterSurface
-from offwind_pin.turbines.base import Array, ComplexArray
+from offwind_pin.base.definition import Array, ComplexArray
+from offwind_pin.loads.point_load import PointMotion
+from offwind_pin.loads.sea.forces.maccamy_fuchs import inertia_factor
+from offwind_pin.loads.sea.forces.morison import MorisonForce
+from offwind_pin.loads.sea.forces.strips import Strips
+from offwind_pin.loads.sea.irregular_waves import Crest, IrregularWaves
+from offwind_pin.loads.sea.kinematics import WaterSeries, WaterSurface
+from offwind_pin.loads.sea.waves.dispersion import wave_number
+from offwind_pin.loads.sea.waves.fourier_wave import SteadyWave
+from offwind_pin.loads.sea.waves.linear import LinearWaves
+from offwind_pin.loads.sea.waves.second_order import SecondOrderWaves
 from offwind_pin.verification.ledger import Found
 
 _GRAVITY, _DENSITY, _ADDED, _DRAG = 9.80665, 1025.0, 0.95, 1.05

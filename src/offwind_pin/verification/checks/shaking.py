@@ -9,14 +9,14 @@ import numpy as np
 from scipy.signal import argrelmax
 
 from offwind_pin.analysis.build import build
+from offwind_pin.analysis.foundation.pile_only import axis_jacobian
 from offwind_pin.analysis.modal import modes
-from offwind_pin.analysis.pile import axis_jacobian
-from offwind_pin.analysis.transient import simulate
+from offwind_pin.analysis.simulate import simulate
+from offwind_pin.base.definition import Array
+from offwind_pin.definitions.tuned_mass_damper import TunedMassDamper, den_hartog
 from offwind_pin.dynamics.system import System
-from offwind_pin.loads.ground_motion import GroundMotion
+from offwind_pin.loads.earthquake.ground_motion import GroundMotion
 from offwind_pin.signal.response_spectrum import response_spectrum
-from offwind_pin.turbines.base import Array
-from offwind_pin.turbines.tuned_mass import TunedMassDamper, den_hartog
 from offwind_pin.verification.ledger import Found
 from offwind_pin.verification.plain_tubes import tube
 

@@ -7,15 +7,15 @@ from functools import cache
 import numpy as np
 
 from offwind_pin.analysis.build import build
-from offwind_pin.analysis.condensation import condense
-from offwind_pin.analysis.pile import pile_only
+from offwind_pin.analysis.foundation.condensation import condense
+from offwind_pin.analysis.foundation.pile_only import pile_only
 from offwind_pin.analysis.static import static
-from offwind_pin.loads.dashpots import Dashpot
-from offwind_pin.loads.points import PointMotion
-from offwind_pin.loads.soil import LATERAL, SoilSprings
-from offwind_pin.loads.soil_curves import tanh_curves
-from offwind_pin.turbines.base import Array
-from offwind_pin.turbines.soil import SoilDashpot
+from offwind_pin.base.definition import Array
+from offwind_pin.definitions.soil.springs import SoilDashpot
+from offwind_pin.loads.point_load import PointMotion
+from offwind_pin.loads.soil.curves.laws import tanh_curves
+from offwind_pin.loads.soil.springs.dashpot import Dashpot
+from offwind_pin.loads.soil.springs.elastic import LATERAL, SoilSprings
 from offwind_pin.verification.ledger import Found
 from offwind_pin.verification.long_pile import LongPile
 from offwind_pin.verification.orders import fitted_order

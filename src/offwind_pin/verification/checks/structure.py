@@ -9,10 +9,10 @@ from scipy.optimize import brentq
 from scipy.special import jv
 
 from offwind_pin.analysis.build import build
+from offwind_pin.base.definition import Array
+from offwind_pin.definitions.reader import load_turbine
 from offwind_pin.structure.frustum import Frustum
 from offwind_pin.structure.section import lump
-from offwind_pin.turbines.base import Array
-from offwind_pin.turbines.reader import load_turbine
 from offwind_pin.verification.beams import cantilever_roots, ritz_frequencies
 from offwind_pin.verification.ledger import Found
 from offwind_pin.verification.orders import fitted_order

@@ -1,0 +1,44 @@
+"""Chain, foundation and sea put together."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from offwind_pin.definitions.turbine import Turbine
+from offwind_pin.dynamics.system import System
+from offwind_pin.loads.sea.sea import Sea
+from offwind_pin.loads.soil.foundation import Foundation
+from offwind_pin.structure.chain import Element, Elements, Stiffness, build_chain
+from offwind_pin.structure.pinocchio_model import Scratch, build_model
+
+
+def assemble(
+    turbine: Turbine,
+    foundation: Foundation,
+    sea: Sea | None = None,
+    *,
+    elements: Elements = None,
+    stiffness: Stiffness = "flexibility",
+    element: Element = "euler_bernoulli",
+) -> System:
+    """A system without structural damping, but with its tuned mass dampers.
+
+    See :func:`build` for the arguments.
+    """
+    held = foundation.structure or turbine
+    chain = build_chain(
+        held,
+        base=foundation.base,
+        free_root=foundation.root is not None,
+        elements=elements,
+        stiffness=stiffness,
+        element=element,
+    )
+    model = build_model(held, chain)
+    springs = np.zeros(model.nv)
+    springs[chain.roots : chain.axis_joints] = chain.joint_stiffness.ravel()
+    damping = np.zeros(model.nv)
+    of_joint = [mass for mass in chain.sliding_mass for _ in mass.joints]
+    springs[chain.axis_joints :] = [mass.stiffness for mass in of_joint]
+    damping[chain.axis_joints :] = [mass.damping for mass in of_joint]
+    return System(held, foundation, chain, sea, model, springs, damping, {}, Scratch(model))

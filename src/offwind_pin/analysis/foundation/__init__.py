@@ -1,0 +1,1 @@
+"""Foundations by name, equivalent foundations, pushover, condensation."""

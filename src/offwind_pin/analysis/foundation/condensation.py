@@ -1,0 +1,216 @@
+"""Static condensation of pile and soil to a 6x6 stiffness at the mudline, in a loaded state."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Literal, get_args
+
+import numpy as np
+
+from offwind_pin.analysis.foundation.pile_only import axis_jacobian, pile_part
+from offwind_pin.analysis.static import StaticResult, load_scale, static
+from offwind_pin.base.definition import Array
+from offwind_pin.base.errors import InputError
+from offwind_pin.definitions.turbine import Turbine
+from offwind_pin.dynamics.acting_loads import split_memory
+from offwind_pin.dynamics.system import System
+from offwind_pin.loads.point_load import (
+    BY_POSITION,
+    MOMENT_BY_TURN,
+    PointForces,
+    PointLoad,
+    PointMotion,
+    PointTangents,
+    as_argument,
+)
+from offwind_pin.loads.root_restraint import as_kernel_restraint
+from offwind_pin.loads.tower_top.load_history import constant_load
+
+CondensedStiffness = Literal["tangent", "secant"]
+
+_OUT_OF_BALANCE = 1e-6
+"""Residual of the pile over the load scale above which a state is not one of the system."""
+
+
+@dataclass(frozen=True, eq=False)
+class Condensation:
+    """What pile and soil are to the structure above the mudline.
+
+    Order x, y, z, rx, ry, rz; N, m, rad. Forces and moments act at the axis at the mudline and keep
+    their directions.
+
+    Attributes
+    ----------
+    kind : ``"tangent"`` or ``"secant"``
+    height : of the mudline in m
+    stiffness : (6, 6) as computed
+    load : (6,) that the structure above exerts in the state, in N and N m
+    displacement : (6,) of the axis there in m and rad, from where the pile's own weight leaves it;
+        the secant stiffness times it is the load, but for products of displacements
+    """
+
+    kind: CondensedStiffness
+    height: float
+    stiffness: Array
+    load: Array
+    displacement: Array
+
+    @property
+    def symmetric(self) -> Array:
+        """(6, 6) the symmetric part of the stiffness, which linear foundations ask for."""
+        return (self.stiffness + self.stiffness.T) / 2
+
+    @property
+    def symmetry_defect(self) -> float:
+        """Largest K_ij - K_ji over the root of K_ii K_jj.
+
+        Zero without load. A moment that keeps its direction while the axis turns does not derive
+        from a potential, so that the defect grows with the moments over the rotational stiffness.
+        """
+        size = np.sqrt(np.abs(np.diag(self.stiffness)))
+        difference = self.stiffness - self.stiffness.T
+        return float(np.max(np.abs(difference) / np.outer(size, size)))
+
+    def replacing_soil(self, turbine: Turbine) -> Turbine:
+        """A turbine with the symmetric part as its soil's ``coupled_springs``."""
+        source = f"{self.kind} stiffness of distributed springs, condensed to the mudline"
+        springs = {"stiffness": self.symmetric.tolist(), "source": source}
+        soil = turbine.soil.model_validate({**dict(turbine.soil), "coupled_springs": springs})
+        return turbine.model_copy(update={"soil": soil})
+
+
+def condense(
+    system: System, about: StaticResult, *, stiffness: CondensedStiffness = "tangent"
+) -> Condensation:
+    """Condense everything below the mudline in a static state of a whole structure.
+
+    K = (J T^-1 J')^-1 with the exact tangent T of the pile's equations in that state, the mudline
+    load's share of it included, and the Jacobian J of the axis at the mudline.
+
+    Parameters
+    ----------
+    system : a structure on distributed springs
+    about : a static state of it
+    stiffness : ``"tangent"`` for small motions about the state, as modes and time histories make
+        them; ``"secant"`` with each soil spring replaced by a linear one of force over
+        displacement in the state, which takes the unloaded pile to that state in one step
+
+    Raises
+    ------
+    InputError : a system without a pile, or a state of another system
+    """
+    if stiffness not in get_args(CondensedStiffness):
+        allowed = ", ".join(get_args(CondensedStiffness))
+        raise InputError("stiffness", stiffness, allowed, "Choose one of them.")
+    if about.q.shape != (system.nv,):
+        allowed = f"a static state of this system, with {system.nv} degrees of freedom"
+        raise InputError("about", f"one with {len(about.q)}", allowed, "Solve statics anew.")
+    pile = pile_part(system)
+    q, rest = about.q[: pile.nv], np.zeros(pile.nv)
+    load = about.mudline_load
+    if system.chain.top == pile.chain.top:  # the topmost section has its own node's soil above it
+        load = load - _soil_at_head(pile, q, about.memory)
+    acting = [constant_load(pile.chain.top, load)]
+    equations = pile.equations(acting, np.inf, about.memory)
+    lack = float(np.max(np.abs(equations.residual(0.0, q, rest, rest)))) / load_scale(system)
+    if lack > _OUT_OF_BALANCE:
+        allowed = "a static state of this system, in balance"
+        raise InputError("about", f"{lack:.2g} of the loads", allowed, "Solve statics anew.")
+    if stiffness == "secant":
+        motion = equations.chain_motion(q, rest)
+        soil = tuple(
+            SecantSprings.of(springs, motion.points_at(springs.height), past)
+            for springs, past in _soil_and_past(pile, about.memory)
+        )
+        pile = replace(pile, foundation=replace(pile.foundation, soil=soil))
+        equations = pile.equations(acting, ramp_time=np.inf)
+    tangent, _ = equations.tangents(0.0, q, rest)
+    jacobian = axis_jacobian(equations.chain_motion(q, rest), pile.chain.top)
+    flexibility = jacobian @ np.linalg.solve(tangent, jacobian.T)
+    return Condensation(
+        kind=stiffness,
+        height=pile.chain.top,
+        stiffness=np.linalg.inv(flexibility),
+        load=load,
+        displacement=_displacement(pile, about),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class SecantSprings:
+    """Linear springs in place of nonlinear ones, with the same forces and moments in one state.
+
+    Attributes
+    ----------
+    height : (n,) of the nodes in m
+    stiffness : (n, 3) along x, y and z in N/m
+    rotational : (n, 3) about x, y and z in N m/rad
+    """
+
+    height: Array
+    stiffness: Array
+    rotational: Array
+    name: str = "secant soil"
+
+    @staticmethod
+    def of(springs: PointLoad, motion: PointMotion, past: dict[str, Array]) -> SecantSprings:
+        """Secants of springs in a state, across and along the pile; tangents at rest."""
+        forces = springs.forces(0.0, motion, 0.0, **past)
+        blocks = springs.tangents(0.0, motion, 0.0, **past).blocks()
+        turn = np.zeros_like(motion.axis) if motion.turn is None else motion.turn
+        return SecantSprings(
+            springs.height,
+            _secants(forces.force, motion.displacement, blocks[:, BY_POSITION]),
+            _secants(forces.moment, turn, blocks[:, MOMENT_BY_TURN]),
+        )
+
+    def forces(self, time: float, motion: PointMotion, rise: float) -> PointForces:
+        turn = np.zeros_like(motion.axis) if motion.turn is None else motion.turn
+        return PointForces(-self.stiffness * motion.displacement, -self.rotational * turn)
+
+    def tangents(self, time: float, motion: PointMotion, rise: float) -> PointTangents:
+        return replace(
+            PointTangents.zeros(len(self.height)),
+            stiffness=-self.stiffness[:, :, None] * np.eye(3),
+            moment_stiffness=-self.rotational[:, :, None] * np.eye(3),
+        )
+
+
+def _secants(pull: Array, moved: Array, tangents: Array) -> Array:
+    """(n, 3) pull over deflection, both (n, 3), horizontal parts together."""
+    result = -np.diagonal(tangents, axis1=1, axis2=2).copy()
+    for directions in ([0, 1], [2]):
+        distance = np.linalg.norm(moved[:, directions], axis=1)
+        size = np.linalg.norm(pull[:, directions], axis=1)
+        some = distance > 0
+        result[np.ix_(some, directions)] = (size[some] / distance[some])[:, None]
+    return result
+
+
+def _soil_at_head(pile: System, q: Array, memory: Array) -> Array:
+    """(6,) force and moment of the soil at the node that lies at the mudline, in N and N m."""
+    motion = pile.equations([], ramp_time=np.inf).chain_motion(q, np.zeros(pile.nv))
+    total = np.zeros(6)
+    for springs, past in _soil_and_past(pile, memory):
+        found = springs.forces(0.0, motion.points_at(springs.height), 0.0, **past)
+        at_head = springs.height == pile.chain.top
+        total += np.concatenate([found.force[at_head].sum(0), found.moment[at_head].sum(0)])
+    return total
+
+
+def _soil_and_past(pile: System, memory: Array) -> Iterator[tuple[PointLoad, dict[str, Array]]]:
+    """Each load of the soil, with what it keeps of its past as an argument if it keeps anything."""
+    soil, root = pile.foundation.soil, as_kernel_restraint(pile.foundation.root)
+    for springs, past in zip(soil, split_memory(soil, root, memory)[:-1], strict=True):
+        yield springs, as_argument(springs, past)
+
+
+def _displacement(pile: System, about: StaticResult) -> Array:
+    """(6,) displacement and small rotation of the head from the unloaded pile, in m and rad."""
+    at = int(np.argmin(np.abs(about.height - about.mudline)))
+    rotation = about.rotation[at].copy()
+    torsion = [name.endswith("_rz") for name in pile.chain.joint_name]
+    rotation[2] = about.q[: pile.nv][torsion].sum()
+    settled = static(pile).mudline_displacement
+    return np.concatenate([about.mudline_displacement - settled, rotation])

@@ -1,0 +1,231 @@
+"""Pushover: a pile under a horizontal load that grows until its head has moved, or until a load."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from offwind_pin.analysis.assemble import assemble
+from offwind_pin.analysis.foundation.pile_only import axis_jacobian, pile_only
+from offwind_pin.analysis.static import axis_rotation, load_scale
+from offwind_pin.base.definition import Array
+from offwind_pin.base.errors import InputError, SolverError
+from offwind_pin.definitions.turbine import Turbine
+from offwind_pin.dynamics.reference.equations import Equations
+from offwind_pin.dynamics.system import System
+from offwind_pin.loads.point_load import PointMotion
+from offwind_pin.loads.soil.foundation import distributed_springs
+from offwind_pin.loads.tower_top.load_history import constant_load
+from offwind_pin.solvers.newton import NewtonResult, newton
+from offwind_pin.structure.chain import Element, Elements
+from offwind_pin.structure.section import outer_diameter
+
+_SHARE_OF_DIAMETER = 0.1
+"""Mudline displacement over diameter at which a monopile counts as failed, as in the PISA tests
+(Byrne et al., Geotechnique 70 (2020), 970-985)."""
+_RELATIVE_TOLERANCE = 1e-10
+"""Of the residual over the size of the loads."""
+_LARGEST_STEP = 0.2
+"""Of a joint in rad or m, and of the load in its unit, within one iteration."""
+_MOST_ITERATIONS = 25
+_HALVINGS = 8
+"""How often a step that Newton's method cannot take is halved."""
+
+
+@dataclass(frozen=True, eq=False)
+class Pushover:
+    """Monotonic response of a pile at the mudline.
+
+    Attributes
+    ----------
+    arm : height of the load above the mudline in m
+    load : (n,) horizontal load H in N, the first zero
+    moment : (n,) H times the arm in N m
+    displacement : (n,) of the axis at the mudline along the load, in m
+    rotation : (n,) of the axis there, forwards, in rad
+    """
+
+    arm: float
+    load: Array
+    moment: Array
+    displacement: Array
+    rotation: Array
+
+
+def pushover(
+    turbine: Turbine,
+    arm: float,
+    *,
+    until_displacement: float | None = None,
+    until_load: float | None = None,
+    displacements: Array | None = None,
+    points: int = 20,
+    elements: Elements = None,
+    element: Element = "euler_bernoulli",
+) -> Pushover:
+    """Push the pile of a turbine at the mudline, with nothing on it, along x.
+
+    The load and its moment keep their directions; the pile's own weight acts, on its deflected
+    axis. Points are equally spaced in whatever is prescribed, the unloaded state first.
+
+    Parameters
+    ----------
+    arm : height in m above the mudline at which the load acts
+    until_displacement : mudline displacement in m at which to stop; by default, where no load is
+        given, a tenth of the diameter there
+    until_load : horizontal load in N at which to stop, instead
+    displacements : (n,) of the mudline in m, rising, at which to find the load, instead
+    points : number of states after the unloaded one
+    elements, element : as for :func:`build`, of the pile alone
+
+    Raises
+    ------
+    InputError : an argument that cannot be used, or a turbine without a pile or its soil
+    SolverError : no equilibrium at a load; its ``results`` hold the :class:`Pushover` so far
+    """
+    ends = {
+        "until_displacement": until_displacement,
+        "until_load": until_load,
+        "displacements": displacements,
+    }
+    given = [name for name, value in ends.items() if value is not None]
+    if len(given) > 1:
+        raise InputError(", ".join(given), "all of them", "one of them", "Leave the others out.")
+    for name, value in (("until_displacement", until_displacement), ("until_load", until_load)):
+        if value is not None and not 0 < value < np.inf:
+            raise InputError(name, value, "a finite number above zero", "Push forwards.")
+    if not np.isfinite(arm):
+        raise InputError("arm", arm, "a finite height in m", "Give where the load acts.")
+    if points < 1:
+        raise InputError("points", points, "1 or more", "Ask for a point at least.")
+    pile = pile_only(turbine)
+    system = assemble(pile, distributed_springs(pile), elements=elements, element=element)
+    if displacements is not None:
+        if not np.all(np.diff(displacements, prepend=0.0) > 0):
+            allowed = "displacements in m that rise from zero"
+            raise InputError("displacements", list(displacements), allowed, "Sort them.")
+        return _Press(system, arm, by_load=False).through(np.append(0.0, displacements))
+    if until_load is not None:
+        return _Press(system, arm, by_load=True).through(np.linspace(0, until_load, points + 1))
+    if until_displacement is None:
+        diameter = outer_diameter(pile, np.array([pile.site.mudline]))[0]
+        until_displacement = _SHARE_OF_DIAMETER * float(diameter)
+    press = _Press(system, arm, by_load=False)
+    return press.through(np.linspace(0, until_displacement, points + 1))
+
+
+class _Press:
+    """What pushes a pile. Its unknowns are the joints and the load, of which one is prescribed."""
+
+    def __init__(self, system: System, arm: float, *, by_load: bool) -> None:
+        self.system = system
+        self._height = system.chain.top
+        self.arm = arm
+        self.by_load = by_load
+        self.direction = np.array([1.0, 0.0, 0.0, 0.0, arm, 0.0])
+        self.scale = load_scale(system)
+        self.rest = np.zeros(system.nv)
+        self.unit = self._linear_stiffness()
+        """Of the load among the unknowns, in N: it makes them alike in size."""
+
+    def through(self, targets: Array) -> Pushover:
+        """Take the pile through displacements in m or loads in N, each step as long as it can."""
+        found: list[Array] = []
+        x = np.zeros(self.system.nv + 1)
+        reached = 0.0
+        for target in targets:
+            halvings = 0
+            while True:
+                goal = reached + (target - reached) / 2**halvings
+                result = self._solve(x, goal)
+                if result.converged:
+                    x, reached = result.x, goal
+                    if halvings == 0:
+                        break
+                    halvings -= 1
+                elif halvings < _HALVINGS:
+                    halvings += 1
+                else:
+                    raise self._failure(result, goal, found)
+            found.append(x)
+        return self._result(found)
+
+    def _solve(self, start: Array, goal: float) -> NewtonResult:
+        """Equilibrium at a displacement or a load.
+
+        One equation is added to those of the joints, which prescribes the load, or the displacement
+        times the scale over a metre, so that it weighs like a force.
+        """
+
+        def residual(x: Array) -> Array:
+            equations = self._equations(self.unit * x[-1])
+            lack = equations.residual(0.0, x[:-1], self.rest, self.rest)
+            if self.by_load:
+                return np.append(lack, self.unit * x[-1] - goal)
+            return np.append(lack, (self._head(x).displacement[0, 0] - goal) * self.scale)
+
+        def correction(x: Array, lack: Array) -> Array:
+            equations = self._equations(self.unit * x[-1])
+            motion = equations.chain_motion(x[:-1], self.rest)
+            jacobian = axis_jacobian(motion, self._height)
+            matrix = np.zeros((len(x), len(x)))
+            matrix[:-1, :-1] = equations.tangents(0.0, x[:-1], self.rest)[0]
+            matrix[:-1, -1] = -self.unit * (jacobian.T @ self.direction)
+            if self.by_load:
+                matrix[-1, -1] = self.unit
+            else:
+                matrix[-1, :-1] = self.scale * jacobian[0]
+            return np.asarray(np.linalg.solve(matrix, lack), dtype=float)
+
+        moments = abs(self.unit * start[-1]) * (1 + abs(self.arm))
+        return newton(
+            residual,
+            correction,
+            start,
+            scale=self.scale + moments,
+            relative_tolerance=_RELATIVE_TOLERANCE,
+            largest_step=_LARGEST_STEP,
+            max_iterations=_MOST_ITERATIONS,
+        )
+
+    def _linear_stiffness(self) -> float:
+        """Load in N that would move the head by a metre if the soil stayed linear."""
+        equations = self._equations(0.0)
+        jacobian = axis_jacobian(equations.chain_motion(self.rest, self.rest), self._height)
+        tangent, _ = equations.tangents(0.0, self.rest, self.rest)
+        moved = np.linalg.solve(tangent, jacobian.T @ self.direction)
+        return float(1 / (jacobian[0] @ moved))
+
+    def _equations(self, load: float) -> Equations:
+        acting = constant_load(self._height, load * self.direction)
+        return self.system.equations([acting], ramp_time=np.inf)
+
+    def _head(self, x: Array) -> PointMotion:
+        motion = self._equations(0.0).chain_motion(x[:-1], self.rest)
+        return motion.points_at(np.array([self._height]))
+
+    def _result(self, found: list[Array]) -> Pushover:
+        load = np.array([self.unit * x[-1] for x in found])
+        heads = [self._head(x) for x in found]
+        return Pushover(
+            arm=self.arm,
+            load=load,
+            moment=load * self.arm,
+            displacement=np.array([head.displacement[0, 0] for head in heads]),
+            rotation=np.array([axis_rotation(head.axis)[0, 1] for head in heads]),
+        )
+
+    def _failure(self, result: NewtonResult, goal: float, found: list[Array]) -> SolverError:
+        so_far = self._result(found)
+        joint, size = self._equations(0.0).worst_joint(result.residual[:-1])
+        what = f"under {goal:.6g} N" if self.by_load else f"at {goal:.6g} m"
+        last = f"{so_far.load[-1]:.6g} N and {so_far.displacement[-1]:.6g} m at the mudline"
+        return SolverError(
+            f"the soil holds the pile no longer: no equilibrium {what}; the last one found has "
+            f"{last}",
+            step=len(found),
+            joint=joint,
+            residual=size,
+            results=so_far,
+        )

@@ -1,0 +1,1 @@
+"""What a turbine's soil does, as data."""

@@ -1,0 +1,62 @@
+"""Springs of the soil as points, units and plain data."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from offwind_pin.loads.soil.curves.laws import TABLE, SoilCurves
+from offwind_pin.loads.soil.springs.elastic import ROCKING, TORSIONAL, SoilSprings
+from offwind_pin.loads.soil.springs.frictional_moment import FrictionalMoment
+
+OtherSprings = SoilSprings | FrictionalMoment
+"""What may act besides the lateral springs."""
+
+_SAMPLED = np.concatenate([[0.0], np.geomspace(1e-6, 0.25, 100)])
+"""Deflections of the exported curves, over the diameter, or in rad."""
+_AT_TOE = ("soil_base_shear", "soil_base_moment", "soil_bearing")
+
+
+def sampled(curves: SoilCurves, scale: float) -> list[list[tuple[float, float]]]:
+    """Points of each curve; of a table its own, elsewhere so that chords stay close."""
+    rows = curves.numbers
+    tables = [row[2 : 2 + int(row[1])] for row in rows if row[0] == TABLE]
+    whole = len(tables) == len(rows)
+    grid = np.unique(np.concatenate([*tables, [] if whole else scale * _SAMPLED]))
+    resistance = np.array([curves.resistance(np.full(len(rows), y)) for y in grid])
+    return [list(zip(grid.tolist(), column.tolist(), strict=True)) for column in resistance.T]
+
+
+def units_of(load: OtherSprings) -> tuple[bool, tuple[str, str]]:
+    """Whether it resists rotation, and the units of deflection and resistance."""
+    if isinstance(load, FrictionalMoment):
+        return True, ("rad", "m")
+    turns = load.direction in (ROCKING, TORSIONAL)
+    at_toe = load.name in _AT_TOE
+    units = {
+        (False, False): ("m", "N/m"),
+        (False, True): ("m", "N"),
+        (True, False): ("rad", "N m/m"),
+        (True, True): ("rad", "N m"),
+    }
+    return turns, units[turns, at_toe]
+
+
+def describe_springs(load: OtherSprings, mudline: float) -> dict[str, Any]:
+    """A load of the soil besides the lateral springs, by its nodes."""
+    _, units = units_of(load)
+    curves = load.lever if isinstance(load, FrictionalMoment) else load.curves
+    return {
+        "name": load.name,
+        "deflection_unit": units[0],
+        "resistance_unit": units[1],
+        "depth_m": (mudline - load.height).tolist(),
+        "initial_stiffness": curves.secant(np.zeros(len(load.height))).tolist(),
+        "ultimate": [finite(value) for value in curves.ultimate],
+    }
+
+
+def finite(value: float) -> float | None:
+    """A number as JSON has it: None where it is infinite or none."""
+    return float(value) if np.isfinite(value) else None

@@ -1,0 +1,397 @@
+"""Time histories: from the static state under the mean loads, with every channel recorded."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import logging
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any, Literal, get_args
+
+import numpy as np
+import xarray as xr
+
+from offwind_pin.analysis.drawing_data import scenery, told
+from offwind_pin.analysis.integrators import (
+    GeneralizedAlpha,
+    Integrator,
+    MotionState,
+    Records,
+    Sections,
+    StepFailed,
+    first_record,
+)
+from offwind_pin.analysis.static import static
+from offwind_pin.analysis.wave_checks import check_waves, wave_facts
+from offwind_pin.base.definition import Array
+from offwind_pin.base.errors import InputError, InterruptedSimulation, SolverError
+from offwind_pin.dynamics.acting_loads import smooth_ramp
+from offwind_pin.dynamics.compiled.chain import CompiledChain
+from offwind_pin.dynamics.system import System
+from offwind_pin.loads.earthquake.ground_motion import GroundMotion, ground_motion_cautions
+from offwind_pin.loads.point_load import PointLoad
+from offwind_pin.loads.python_load import PythonLoad
+from offwind_pin.loads.tower_top.load_history import LoadHistory, TowerTopLoad, constant_load
+from offwind_pin.results.blocks import BLOCK_FOLDER, Block, BlockStore, FolderStore, MemoryStore
+from offwind_pin.results.dataset import HistoryWriter
+from offwind_pin.solvers.steps import FixedStep
+from offwind_pin.structure.urdf import definition_hash
+
+_log = logging.getLogger(__name__)
+
+Progress = Callable[[float], None]
+Start = Literal["static", "undeformed"]
+
+_SAMPLES = 2001
+"""Times at which a run's loads are compared with those of the run it goes on from: of an hour every
+two seconds, so that no gust lies in between."""
+_BLOCK_SECONDS = 20.0
+_BLOCK_STEPS = 2000
+"""A block ends with an output and holds no more than either; it is what a killed run loses."""
+
+
+def simulate(
+    system: System,
+    duration: float,
+    dt: float = 0.02,
+    loads: Sequence[PointLoad | LoadHistory | Array] = (),
+    *,
+    ramp: float = 0.0,
+    start: Start = "static",
+    ground_motion: GroundMotion | None = None,
+    output_dt: float | None = None,
+    spectral_radius: float = 0.9,
+    integrator: Integrator | None = None,
+    heights: Sequence[float] | None = None,
+    segments: Sequence[tuple[float, float]] | None = None,
+    directory: Path | str | None = None,
+    provenance: dict[str, Any] | None = None,
+    progress: Progress | None = None,
+) -> xr.Dataset:
+    """Motion under waves and loads, by default by generalised-alpha with a fixed step.
+
+    The start is the static state under the mean loads, at rest, unless told. During the ramp, waves
+    and the departures of the loads from their means rise to full strength.
+
+    Parameters
+    ----------
+    duration : simulated time in s, the ramp included
+    dt : time step in s
+    loads : what acts: at the yaw bearing a constant load (6,) Fx, Fy, Fz, Mx, My, Mz in N and N m
+        or a history, whose mean is taken over the time after the ramp; or point loads of one's own
+    ramp : seconds over which the fluctuations rise
+    start : ``"static"``, or ``"undeformed"`` for a structure that gravity and mean loads seize at
+        time 0
+    ground_motion : an earthquake, at its own times whatever the ramp; displacements and
+        accelerations are recorded as they are absolutely, not relative to the ground
+    output_dt : interval of the output in s, a multiple of dt; by default every step
+    spectral_radius : numerical damping at infinite frequency, 1 for none
+    integrator : instead of ``dt`` and ``spectral_radius``, see
+        :mod:`offwind_pin.analysis.integrators`
+    heights : in m, where motion and section loads are recorded, by default the element boundaries;
+        mudline and yaw bearing are added
+    segments : pairs of heights in m whose equilibrium is recorded as ``segment_imbalance``, by
+        default the whole structure and its parts above and below the mudline
+    directory : where the results are kept as they come, ``results.nc`` in the end, so that memory
+        does not grow with the duration; the same call after a stop goes on where it left off, to
+        bitwise the same results
+    provenance : further attributes for the dataset
+    progress : called with the simulated time as it grows
+
+    Returns
+    -------
+    Dataset with ``displacement``, ``acceleration``, ``section_force`` and ``section_moment`` over
+    time and height, the mudline and tower-top channels, the applied load, ``soil_force`` at the
+    nodes of the soil, the waves, the ground's motion in an earthquake, the displacements of tuned
+    mass dampers, the ledger of energies, the solver's own account, and what a picture needs
+    (:mod:`offwind_pin.analysis.drawing_data`); see
+    ``attrs`` for versions, seeds and settings. With a ``directory`` it reads from the file there,
+    channel by channel as they are asked for.
+
+    Raises
+    ------
+    InputError : an argument that cannot be used, a history that is too short, waves that would
+        repeat, or a time step too long for them
+    SolverError : a step did not converge; ``results`` holds the dataset so far
+    InterruptedSimulation : the user stopped it; ``results`` holds the dataset so far
+    """
+    _check_settings(duration, dt, ramp, output_dt)
+    if start not in get_args(Start):
+        raise InputError("start", start, ", ".join(get_args(Start)), "Choose one.")
+    if not isinstance(ground_motion, GroundMotion | None):
+        raise InputError(
+            "ground_motion", type(ground_motion).__name__, "a GroundMotion or None", "Make one."
+        )
+    interval = dt if output_dt is None else output_dt
+    method = integrator or GeneralizedAlpha(FixedStep(dt), spectral_radius)
+    outputs = round(duration / interval)
+    if abs(outputs * interval - duration) > 1e-6 * duration:
+        raise InputError(
+            "duration", duration, f"a multiple of {interval} s, the output's interval", "Adjust it."
+        )
+    acting = [_at_yaw_bearing(system, load, ramp, duration) for load in loads]
+    chain = CompiledChain(system, acting, ramp, ground_motion)
+    parts = _segments(system, segments)
+    sections = chain.sections(_recorded_heights(system, heights, parts), parts)
+    q = np.zeros(system.nv)
+    if start == "static":
+        resting = static(system, loads=acting)
+        q, chain.memory = resting.q, resting.memory
+    state = method.begin(chain, q, interval)
+    check_waves(system, duration, ramp, method.describe().get("dt_s"))
+    attributes = _provenance(system, acting, ramp, interval, method) | {"start": start}
+    if ground_motion is not None:
+        attributes |= _told_of(ground_motion, dt, duration)
+    attributes |= provenance or {}
+    run = {
+        **attributes,
+        "duration_s": duration,
+        "inputs_sha256": _fingerprint(chain, sections, duration),
+    }
+    store: BlockStore = MemoryStore()
+    if directory is not None:
+        store = FolderStore(Path(directory) / BLOCK_FOLDER, run)
+    writer = HistoryWriter(
+        system.turbine.site.mudline,
+        sections[0].height,
+        parts,
+        [load.name for load in chain.loads],
+        chain.stores,
+        attributes,
+        scenery(system),
+        _ground_levels(system, ground_motion),
+        {mass.name: mass.travel for mass in system.chain.sliding_mass},
+        chain.soil.height,
+    )
+    cautioned: set[str] = set()
+    if len(store) == 0:
+        state, records = first_record(chain, sections, state)
+        store.append(_block(chain, state, records))
+    try:
+        state = _state(store.last())
+        per_block = _outputs_per_block(method, interval)
+        done = round(state.time / interval)
+        while done < outputs:
+            until = min(done + per_block - done % per_block, outputs)
+            times = interval * np.arange(done + 1, until + 1, dtype=float)
+            state, records = method.cross(chain, sections, state, times)
+            store.append(_block(chain, state, records))
+            _caution_of_travel(system, records, cautioned)
+            done = until
+            if progress is not None:
+                progress(state.time)
+    except StepFailed as failure:
+        if failure.crossed is not None:
+            store.append(_block(chain, *failure.crossed))
+        joint, size = chain.worst_joint(failure.residual)
+        raise SolverError(
+            f"the time step did not converge: {failure.reason} (a smaller dt may help)",
+            time=failure.time,
+            step=failure.number,
+            joint=joint,
+            residual=size,
+            results=writer.write(store, "failed", directory),
+        ) from None
+    except KeyboardInterrupt:
+        raise InterruptedSimulation(
+            _state(store.last()).time, writer.write(store, "interrupted", directory)
+        ) from None
+    data = writer.write(store, "complete", directory)
+    if isinstance(store, FolderStore):
+        store.remove()
+    return data
+
+
+def _caution_of_travel(system: System, records: Records, cautioned: set[str]) -> None:
+    """Say once of each tuned mass damper that it goes further than it has room for."""
+    for d, mass in enumerate(system.chain.sliding_mass):
+        way = np.linalg.norm(records["slip"][:, d], axis=1)
+        if mass.name not in cautioned and np.any(way > mass.travel):
+            cautioned.add(mass.name)
+            first = int(np.argmax(way > mass.travel))
+            _log.warning(
+                "tuned mass damper %s slides %.3g m at t = %.6g s; it has room for %.3g m, and no "
+                "stop is modelled",
+                mass.name,
+                way[first],
+                records["time"][first],
+                mass.travel,
+            )
+
+
+def _outputs_per_block(method: Integrator, interval: float) -> int:
+    steps = method.describe().get("dt_s")
+    per_output = 1 if steps is None else max(1, round(interval / float(steps)))
+    return max(1, min(round(_BLOCK_SECONDS / interval), _BLOCK_STEPS // per_output))
+
+
+def _recorded_heights(
+    system: System, heights: Sequence[float] | None, segments: Sequence[tuple[float, float]]
+) -> Array:
+    """Heights of the records, rising: those asked for, mudline, top, and the segments' ends."""
+    chain = system.chain
+    asked = chain.boundary if heights is None else np.asarray(heights, dtype=float)
+    ends = np.array([z for pair in segments for z in pair])
+    everything = np.concatenate([asked, [system.turbine.site.mudline, chain.top], ends])
+    outside = ~np.isfinite(everything) | (everything < chain.base) | (everything > chain.top)
+    if np.any(outside):
+        raise InputError(
+            "heights",
+            float(everything[outside][0]),
+            f"{chain.base} to {chain.top} m, from the base to the yaw bearing",
+            "Choose heights on the structure.",
+        )
+    rising = np.unique(everything)
+    return rising[np.concatenate([[True], np.diff(rising) > 1e-9])]
+
+
+def _segments(
+    system: System, segments: Sequence[tuple[float, float]] | None
+) -> list[tuple[float, float]]:
+    """The segments asked for; by default the whole, and what is above and below the mudline."""
+    chain, mudline = system.chain, system.turbine.site.mudline
+    if segments is None:
+        pile = [(chain.base, mudline)] if chain.base < mudline else []
+        above = [(mudline, chain.top)]
+        return [(chain.base, chain.top), *above, *pile] if pile else above
+    for low, high in segments:
+        if not low < high:
+            raise InputError("segments", (low, high), "a lower and a higher end", "Exchange them.")
+    return [(float(low), float(high)) for low, high in segments]
+
+
+def _block(chain: CompiledChain, state: MotionState, records: Records) -> Block:
+    """Records and the state at their end, with the loads that depend on time alone."""
+    time = records["time"]
+    rise = smooth_ramp(time, chain.ramp_time)
+    waters = chain.system.waters
+    elevation = np.zeros(len(time))
+    if waters is not None:
+        elevation = rise * waters.surface.elevation(time)
+    shaken = {}
+    if chain.ground_motion is not None:
+        shaken["ground_motion"] = chain.ground_motion.motion(time)
+    tops = [load.rows(time, rise) for load in chain.loads if isinstance(load, TowerTopLoad)]
+    return {
+        **records,
+        "tower_top_load": np.sum([np.zeros((len(time), 6)), *tops], axis=0),
+        "wave_elevation": elevation,
+        **shaken,
+        **{f"state_{name}": np.asarray(value) for name, value in state._asdict().items()},
+    }
+
+
+def _state(block: Block) -> MotionState:
+    """The state at the end of a block."""
+    values = {name: block[f"state_{name}"] for name in MotionState._fields}
+    return MotionState(
+        time=float(values["time"]),
+        vectors=values["vectors"],
+        memory=values["memory"],
+        energy=values["energy"],
+        power=values["power"],
+        steps=int(values["steps"]),
+    )
+
+
+def _check_settings(duration: float, dt: float, ramp: float, output_dt: float | None) -> None:
+    for name, value in (("duration", duration), ("dt", dt), ("output_dt", output_dt)):
+        if value is not None and not (np.isfinite(value) and value > 0):
+            raise InputError(name, value, "a positive number of seconds", "Correct it.")
+    if not 0 <= ramp < duration:
+        raise InputError("ramp", ramp, f"0 to less than the duration ({duration} s)", "Shorten it.")
+
+
+def _at_yaw_bearing(
+    system: System, load: PointLoad | LoadHistory | Array, ramp: float, duration: float
+) -> PointLoad:
+    if isinstance(load, np.ndarray):
+        return constant_load(system.chain.top, load)
+    if not isinstance(load, LoadHistory):
+        return load
+    if load.time[0] > 0 or load.time[-1] < duration - 1e-9:
+        raise InputError(
+            f"load history {load.origin!r}, time",
+            f"{load.time[0]} to {load.time[-1]} s",
+            f"samples from 0 to at least {duration} s",
+            "Shorten the simulation or extend the file.",
+        )
+    return TowerTopLoad(system.chain.top, load, load.mean(ramp, duration))
+
+
+def _fingerprint(chain: CompiledChain, sections: Sections, duration: float) -> str:
+    """Hash of everything that determines the results besides the settings: loads and heights."""
+    digest = hashlib.sha256()
+    numbers = chain.rows(np.linspace(0.0, duration, _SAMPLES))
+    digest.update(json.dumps(chain.system.foundation.describe()).encode())
+    arrays = [numbers, sections[0].height, sections[1].cut]
+    arrays += [chain.arrays.stiffness, chain.arrays.damping]
+    if chain.ground_motion is not None:
+        motion = chain.ground_motion
+        arrays += [motion.time, motion.corrected, motion.levels]
+    for load in chain.loads:
+        arrays.append(load.height)
+        if not isinstance(load, PythonLoad):  # whose inside is not to be seen
+            arrays.append(load.constants)
+        if isinstance(load, TowerTopLoad):
+            arrays += [load.history.time, load.history.load, load.mean]
+    for array in arrays:
+        digest.update(np.ascontiguousarray(array).tobytes())
+    return digest.hexdigest()
+
+
+def _told_of_waves(system: System) -> dict[str, Any]:
+    """Attributes of the realised waves; what there is to say of them goes to the log, too."""
+    facts = wave_facts(system)
+    notes, cautions = facts.pop("notes", []), facts.pop("cautions", [])
+    for note in notes:
+        _log.info("waves: %s", note)
+    for caution in cautions:
+        _log.warning("waves: %s", caution)
+    told = {f"wave_{name}": value for name, value in facts.items()}
+    if notes or cautions:
+        told["wave_notes"] = " | ".join([*notes, *cautions])
+    return told
+
+
+def _ground_levels(system: System, motion: GroundMotion | None) -> Array:
+    """(D,) heights in m of the ground's recorded motion; none without an earthquake."""
+    if motion is None:
+        return np.zeros(0)
+    return np.array([system.turbine.site.mudline]) if motion.height is None else motion.height
+
+
+def _told_of(motion: GroundMotion, dt: float, duration: float) -> dict[str, str]:
+    """Attributes on an earthquake; what looks wrong with it goes to the log as well."""
+    cautions = ground_motion_cautions(motion, dt, duration)
+    for caution in cautions:
+        _log.warning("ground motion: %s", caution)
+    return {
+        "ground_motion_origin": motion.origin,
+        "ground_motion_baseline": motion.baseline,
+        "ground_motion_cautions": " | ".join(cautions) or "none",
+    }
+
+
+def _provenance(
+    system: System, loads: Sequence[PointLoad], ramp: float, interval: float, method: Integrator
+) -> dict[str, Any]:
+    origins = [load.history for load in loads if isinstance(load, TowerTopLoad)]
+    surrogates = [system.foundation.surrogate, *(history.surrogate for history in origins)]
+    return {
+        "turbine": system.turbine.name,
+        "definition_sha256": definition_hash(system.turbine),
+        "foundation": system.foundation.name,
+        "sea": repr(system.sea) if system.sea else "dry",
+        "wave_seed": -1 if system.sea is None else system.sea.wave_seed,
+        **_told_of_waves(system),
+        **told(system),
+        "tower_top_load_origin": "; ".join(history.origin for history in origins) or "none",
+        "surrogates": " | ".join(text for text in surrogates if text) or "none",
+        "elements": system.chain.elements,
+        "element": "timoshenko" if "px" in system.chain.node_joints else "euler_bernoulli",
+        "ramp_s": ramp,
+        "output_dt_s": interval,
+        **method.describe(),
+    }

@@ -1,0 +1,94 @@
+"""Structural damping calibrated on modes of the supported structure."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import nnls
+
+from offwind_pin.analysis.modal import ModalResult, modes
+from offwind_pin.base.definition import Array
+from offwind_pin.base.errors import InputError
+from offwind_pin.definitions.turbine import DampingCalibration
+from offwind_pin.dynamics.system import System
+from offwind_pin.structure.chain import Chain
+
+_SEARCHED_MODES = 12
+
+
+@dataclass(frozen=True)
+class StructuralDamping:
+    """Stiffness-proportional joint damping by region and plane.
+
+    Attributes
+    ----------
+    factor : damping over stiffness in s, by region: (side-side, fore-aft); torsion takes their mean
+    achieved : damping ratio of the calibrated modes on the system they were calibrated on
+    """
+
+    factor: dict[str, tuple[float, float]]
+    achieved: dict[str, float]
+
+    def of(self, chain: Chain) -> Array:
+        """(N, d) damping of a chain's joints in N m s/rad and N s/m.
+
+        The embedded pile has none: the springs at the mudline that stand for it in the calibration
+        have none either, and its soil has dashpots of its own.
+        """
+        pairs = np.array([self.factor.get(region, (0.0, 0.0)) for region in chain.region])
+        side_side, fore_aft = pairs.T
+        torsion = pairs.mean(axis=1)
+        plane = {"px": fore_aft, "ry": fore_aft, "py": side_side, "rx": side_side, "rz": torsion}
+        return chain.joint_stiffness * np.column_stack([plane[j] for j in chain.node_joints])
+
+
+def calibrate_damping(undamped: System, calibration: DampingCalibration) -> StructuralDamping:
+    """Factors by region and plane that bring the named modes to their ratios.
+
+    Non-negative least squares on phi' D phi = 2 zeta omega, which is linear in the factors; what is
+    achieved is reported, and equals what was asked where the factors can reach it.
+
+    Raises
+    ------
+    InputError : a named mode is not among the first twelve
+    """
+    result = modes(undamped, n=min(_SEARCHED_MODES, undamped.nv))
+    regions = sorted({region for region in undamped.chain.region if region != "pile"})
+    labels = list(calibration.ratios)
+    index = [_find(result, label) for label in labels]
+    unit = np.eye(2 * len(regions))
+    columns = []
+    for row in unit:
+        factor = {region: (row[2 * i], row[2 * i + 1]) for i, region in enumerate(regions)}
+        damping = StructuralDamping(factor, {}).of(undamped.chain).ravel()
+        columns.append(_modal_ratios(undamped, result, index, damping))
+    matrix = np.array(columns).T
+    wanted = np.array([calibration.ratios[label] for label in labels])
+    factors, _ = nnls(matrix / wanted[:, None], np.ones(len(wanted)))
+    achieved = matrix @ factors
+    return StructuralDamping(
+        {
+            region: (float(factors[2 * i]), float(factors[2 * i + 1]))
+            for i, region in enumerate(regions)
+        },
+        dict(zip(labels, achieved.tolist(), strict=True)),
+    )
+
+
+def _modal_ratios(system: System, result: ModalResult, index: list[int], damping: Array) -> Array:
+    """(n,) ratio that joint dampers alone give the chosen modes."""
+    rates = result.vector[system.chain.roots : system.chain.axis_joints, index]
+    omega = 2 * np.pi * result.frequency_hz[index]
+    return np.sum(damping[:, None] * rates**2, axis=0) / (2 * omega)
+
+
+def _find(result: ModalResult, label: str) -> int:
+    if label not in result.label:
+        raise InputError(
+            f"structural_damping.ratios_of_critical.{label}",
+            label,
+            ", ".join(result.label),
+            "Name modes of the supported structure.",
+        )
+    return result.label.index(label)

@@ -1,0 +1,1 @@
+"""Fitting soil parameters to measurements."""

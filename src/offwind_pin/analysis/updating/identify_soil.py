@@ -1,0 +1,427 @@
+"""Identification: numbers of a turbine's soil, or of any part of it, from measured responses."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.optimize import least_squares
+from scipy.stats import chi2
+from scipy.stats.qmc import Halton
+
+from offwind_pin.analysis.updating.definition_path import number_at, with_number
+from offwind_pin.analysis.updating.targets import Responses, Target
+from offwind_pin.base.definition import Array
+from offwind_pin.base.errors import InputError
+from offwind_pin.definitions.turbine import Turbine
+from offwind_pin.loads.sea.sea import Sea
+from offwind_pin.structure.chain import Element, Elements
+
+UNTOLD = 1 / np.sqrt(12)
+"""Standard error of a combination, in shares of the parameters' ranges, from which on the data do
+not determine it: the standard deviation of a uniform distribution over the range, which is what the
+bounds say without any data."""
+NUMERICAL_RANK = 1e-6
+"""Singular value over the largest one that cannot be told from zero: the accuracy of differences
+of responses that are solved to 1e-10."""
+SIGNIFICANCE = 0.05
+"""Probability of a larger chi-square below which the targets do not fit together in the model."""
+_STEP = 1e-4
+"""Of differences, in shares of a parameter's range."""
+_AT_BOUND = 1e-4
+"""Distance from a bound, in shares of the range, within which the bound holds the parameter."""
+_TOLERANCE = 1e-6
+"""Of the least squares: relative change of the sum, and of the parameters."""
+_ALONE = 0.99
+"""Share of one parameter in a combination from which on the combination is called by its name."""
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A number of the definition to be found between two bounds.
+
+    path : dotted, ``"soil.distributed_springs.curve.initial_modulus.gradient"``
+    start : by default what the turbine has, or the middle where that is out of bounds
+    log : search over the logarithm, for numbers of unknown order of magnitude
+    """
+
+    path: str
+    lower: float
+    upper: float
+    start: float | None = None
+    log: bool = True
+
+    def __post_init__(self) -> None:
+        where = f"parameter {self.path!r}"
+        bounds = (self.lower, self.upper)
+        if not (np.all(np.isfinite(bounds)) and self.lower < self.upper):
+            raise InputError(where, bounds, "finite bounds, lower before upper", "Correct them.")
+        if self.log and self.lower <= 0:
+            raise InputError(where, self.lower, "a lower bound above zero", "Or set log=False.")
+        if self.start is not None and not self.lower <= self.start <= self.upper:
+            allowed = f"{self.lower} to {self.upper}"
+            raise InputError(f"{where}, start", self.start, allowed, "Start within the bounds.")
+
+    @property
+    def name(self) -> str:
+        """The path's last two steps."""
+        return ".".join(self.path.split(".")[-2:])
+
+    def value(self, share: float) -> float:
+        """The number at a share of the range from 0 to 1."""
+        if self.log:
+            return float(self.lower * (self.upper / self.lower) ** share)
+        return self.lower + share * (self.upper - self.lower)
+
+    def share(self, value: float) -> float:
+        """Place of a number in the range, from 0 to 1."""
+        if self.log:
+            return float(np.log(value / self.lower) / np.log(self.upper / self.lower))
+        return (value - self.lower) / (self.upper - self.lower)
+
+
+@dataclass(frozen=True)
+class FoundParameter:
+    """What became of a parameter.
+
+    standard_error : of the value, from the targets' uncertainties; infinite where the data leave it
+        open
+    identifiable : whether the data determine it
+    bound : ``"lower"`` or ``"upper"`` if that holds it, else None
+    """
+
+    parameter: Parameter
+    value: float
+    standard_error: float
+    identifiable: bool
+    bound: str | None
+
+
+@dataclass(frozen=True, eq=False)
+class FoundTarget:
+    """What became of a target.
+
+    found : (k,) the model's response; distance : (k,) found minus wanted over the uncertainty
+    """
+
+    target: Target
+    found: Array
+    distance: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Identification:
+    """Outcome of an identification.
+
+    Attributes
+    ----------
+    turbine : the definition with the numbers found
+    parameters, targets : what became of each, in the order given
+    jacobian : (m, p) distances of all targets by the parameters' shares of their ranges
+    sensitivity : (m, p) relative change of each response per relative change of each parameter
+    covariance : (p, p) of the shares, of the determined combinations only
+    singular_values : (p,) of the Jacobian: one over the standard error of a combination, in shares
+    combinations : (p, p) rows are the combinations of shares that belong to them
+    chi_square : sum of squared distances
+    degrees_of_freedom : responses less determined combinations
+    probability : of a larger chi-square by chance; NaN without degrees of freedom
+    evaluations : models solved
+    verdict : all of it in words
+    """
+
+    turbine: Turbine
+    parameters: tuple[FoundParameter, ...]
+    targets: tuple[FoundTarget, ...]
+    jacobian: Array
+    sensitivity: Array
+    covariance: Array
+    singular_values: Array
+    combinations: Array
+    chi_square: float
+    degrees_of_freedom: int
+    probability: float
+    evaluations: int
+    verdict: str
+
+    @property
+    def identifiable(self) -> bool:
+        """Whether the data determine every parameter."""
+        return all(parameter.identifiable for parameter in self.parameters)
+
+    @property
+    def meets_targets(self) -> bool:
+        """Whether the targets are met as well as their uncertainties ask for."""
+        if self.degrees_of_freedom > 0:
+            return self.probability >= SIGNIFICANCE
+        return self.chi_square <= chi2.isf(SIGNIFICANCE, len(self.jacobian))
+
+
+def identify_soil(
+    turbine: Turbine,
+    targets: Sequence[Target],
+    parameters: Sequence[Parameter],
+    *,
+    foundation: str = "distributed_springs",
+    sea: Sea | None = None,
+    element: Element = "euler_bernoulli",
+    elements: Elements = None,
+    starts: int = 1,
+    progress: Callable[[int, float], None] | None = None,
+) -> Identification:
+    """Fit numbers of a definition to responses by bounded least squares over the model itself.
+
+    The sum of squared distances, each over its uncertainty, is made least by a trust-region method
+    (SciPy's ``least_squares``); what the data determine is judged at the minimum by the singular
+    values of the Jacobian.
+
+    Parameters
+    ----------
+    targets : :class:`FrequencyTarget`, :class:`DeflectionTarget`, :class:`ShapeTarget`
+    parameters : what to find; the rest of the definition stays
+    foundation, sea, element, elements : the model, as for :func:`build`
+    starts : searches, of which the best is kept: the first from where the parameters start, further
+        ones from points spread over the ranges (Halton's sequence), against local minima
+    progress : called with the number of models solved and half the sum of squares after each
+
+    Raises
+    ------
+    InputError : nothing to fit, a path that leads nowhere, a number that the definition forbids
+    SolverError : a model without equilibrium, as of a soil too weak for its structure
+    """
+    if not targets or not parameters:
+        given = f"{len(targets)} targets and {len(parameters)} parameters"
+        raise InputError("identify_soil", given, "one of each at least", "Add what is missing.")
+    if starts < 1:
+        raise InputError("starts", starts, "1 or more", "Search once at least.")
+    paths = [parameter.path for parameter in parameters]
+    if len(set(paths)) < len(paths):
+        raise InputError("parameters", paths, "each path once", "Remove the double.")
+    fit = _Fit(
+        turbine,
+        targets,
+        parameters,
+        lambda changed: Responses(changed, foundation, sea, element, elements),
+        progress,
+    )
+    first = np.array([_start(turbine, parameter) for parameter in parameters])
+    spread = Halton(len(parameters), scramble=False).random(starts)[1:]
+    searches = [fit.search(start) for start in (first, *spread)]
+    return fit.outcome(min(searches, key=fit.cost))
+
+
+def _start(turbine: Turbine, parameter: Parameter) -> float:
+    """Share of the range to start from, off the bounds."""
+    present = number_at(turbine, parameter.path)
+    if parameter.start is not None:
+        share = parameter.share(parameter.start)
+    elif parameter.lower <= present <= parameter.upper:
+        share = parameter.share(present)
+    else:
+        share = 0.5
+    return float(np.clip(share, 0.01, 0.99))
+
+
+class _Fit:
+    """The model as a function of the parameters' shares of their ranges."""
+
+    def __init__(
+        self,
+        turbine: Turbine,
+        targets: Sequence[Target],
+        parameters: Sequence[Parameter],
+        solve: Callable[[Turbine], Responses],
+        progress: Callable[[int, float], None] | None,
+    ) -> None:
+        self.turbine = turbine
+        self.targets = targets
+        self.parameters = parameters
+        self.solve = solve
+        self.progress = progress
+        self.evaluations = 0
+        self.wanted = np.concatenate([target.wanted for target in targets])
+        self.uncertainty = np.concatenate(
+            [np.full(len(target.wanted), target.uncertainty) for target in targets]
+        )
+        self._last: tuple[bytes, Array] | None = None
+
+    def changed(self, shares: Array) -> Turbine:
+        turbine = self.turbine
+        for parameter, share in zip(self.parameters, shares, strict=True):
+            turbine = with_number(turbine, parameter.path, parameter.value(float(share)))
+        return turbine
+
+    def distances(self, shares: Array) -> Array:
+        """(m,) found minus wanted over the uncertainties."""
+        key = shares.tobytes()
+        if self._last is None or self._last[0] != key:
+            responses = self.solve(self.changed(shares))
+            found = np.concatenate([target.found(responses) for target in self.targets])
+            self._last = key, (found - self.wanted) / self.uncertainty
+            self.evaluations += 1
+            if self.progress is not None:
+                self.progress(self.evaluations, float(self._last[1] @ self._last[1]) / 2)
+        return self._last[1]
+
+    def cost(self, shares: Array) -> float:
+        """Half the sum of the squared distances."""
+        return float(self.distances(shares) @ self.distances(shares)) / 2
+
+    def search(self, start: Array) -> Array:
+        """(p,) shares of the nearest minimum."""
+        result = least_squares(
+            self.distances,
+            start,
+            self.forward_differences,
+            bounds=(0, 1),
+            method="trf",
+            ftol=_TOLERANCE,
+            xtol=_TOLERANCE,
+        )
+        return np.clip(result.x, 0, 1)
+
+    def forward_differences(self, shares: Array) -> Array:
+        """(m, p) derivatives by the shares, good enough to walk by; steps lead inwards."""
+        here = self.distances(shares)
+        columns = []
+        for i, share in enumerate(shares):
+            step = _STEP if share < 0.5 else -_STEP
+            columns.append((self.distances(shares + step * _unit(i, len(shares))) - here) / step)
+        return np.array(columns).T
+
+    def central_differences(self, shares: Array) -> Array:
+        """(m, p) derivatives by the shares to second order; at a bound, a step inside it."""
+        middle = np.clip(shares, _STEP, 1 - _STEP)
+        columns = []
+        for i in range(len(shares)):
+            step = _STEP * _unit(i, len(shares))
+            columns.append(
+                (self.distances(middle + step) - self.distances(middle - step)) / (2 * _STEP)
+            )
+        return np.array(columns).T
+
+    def outcome(self, shares: Array) -> Identification:
+        distances = self.distances(shares)
+        jacobian = self.central_differences(shares)
+        _, values, combinations = np.linalg.svd(jacobian, full_matrices=True)
+        singular = np.zeros(len(shares))
+        singular[: len(values)] = values
+        singular[singular < NUMERICAL_RANK * singular[0]] = 0.0
+        told = singular * UNTOLD > 1
+        kept = combinations[told]
+        covariance = kept.T @ np.diag(1 / singular[told] ** 2) @ kept
+        found = tuple(
+            self._parameter(i, float(share), covariance, combinations, singular)
+            for i, share in enumerate(shares)
+        )
+        total = float(distances @ distances)
+        freedom = len(distances) - int(told.sum())
+        outcome = Identification(
+            turbine=self.changed(shares),
+            parameters=found,
+            targets=self._targets(distances),
+            jacobian=jacobian,
+            sensitivity=self._sensitivity(jacobian, distances, shares),
+            covariance=covariance,
+            singular_values=singular,
+            combinations=combinations,
+            chi_square=total,
+            degrees_of_freedom=freedom,
+            probability=float(chi2.sf(total, freedom)) if freedom > 0 else float("nan"),
+            evaluations=self.evaluations,
+            verdict="",
+        )
+        return replace(outcome, verdict=_in_words(outcome))
+
+    def _parameter(
+        self, i: int, share: float, covariance: Array, combinations: Array, singular: Array
+    ) -> FoundParameter:
+        parameter = self.parameters[i]
+        untold = singular * UNTOLD <= 1
+        open_share = float(np.sum(combinations[untold, i] ** 2))
+        error = float(np.sqrt(covariance[i, i]))
+        identifiable = open_share < 1 - _ALONE and error < UNTOLD
+        bound = "lower" if share < _AT_BOUND else "upper" if share > 1 - _AT_BOUND else None
+        return FoundParameter(
+            parameter=parameter,
+            value=parameter.value(share),
+            standard_error=_slope(parameter, share) * error if identifiable else float("inf"),
+            identifiable=identifiable,
+            bound=bound,
+        )
+
+    def _targets(self, distances: Array) -> tuple[FoundTarget, ...]:
+        sizes = [len(target.wanted) for target in self.targets]
+        parts = np.split(distances, np.cumsum(sizes)[:-1])
+        return tuple(
+            FoundTarget(target, target.wanted + target.uncertainty * part, part)
+            for target, part in zip(self.targets, parts, strict=True)
+        )
+
+    def _sensitivity(self, jacobian: Array, distances: Array, shares: Array) -> Array:
+        """(m, p) d ln response / d ln parameter; NaN of a response that is zero."""
+        response = self.wanted + self.uncertainty * distances
+        relative = np.full_like(response, np.nan)
+        np.divide(self.uncertainty, response, out=relative, where=response != 0)
+        values = [p.value(float(s)) for p, s in zip(self.parameters, shares, strict=True)]
+        slopes = [_slope(p, float(s)) for p, s in zip(self.parameters, shares, strict=True)]
+        return jacobian * relative[:, None] * np.array(values) / np.array(slopes)
+
+
+def _slope(parameter: Parameter, share: float) -> float:
+    """Derivative of a parameter's value by its share."""
+    if parameter.log:
+        return parameter.value(share) * float(np.log(parameter.upper / parameter.lower))
+    return parameter.upper - parameter.lower
+
+
+def _unit(i: int, count: int) -> Array:
+    return np.eye(count)[i]
+
+
+def _in_words(outcome: Identification) -> str:
+    """What the data determine, which bounds hold, and whether the targets are met."""
+    lines = []
+    names = [found.parameter.name for found in outcome.parameters]
+    for found in outcome.parameters:
+        if found.identifiable:
+            lines.append(
+                f"{found.parameter.name} = {found.value:.4g} +- {found.standard_error:.2g}."
+            )
+        else:
+            lines.append(f"{found.parameter.name} is not identifiable from these targets.")
+        if found.bound is not None:
+            limit = getattr(found.parameter, found.bound)
+            lines.append(f"{found.parameter.name} is held by its {found.bound} bound {limit:.4g}.")
+    if not outcome.identifiable:
+        for value, row in zip(outcome.singular_values, outcome.combinations, strict=True):
+            what = _combination(row, names)
+            if value * UNTOLD > 1:
+                lines.append(f"Determined to {1 / value:.2g} of the range: {what}.")
+            else:
+                lines.append(f"Left open by the data: {what}.")
+    worst = max(outcome.targets, key=lambda found: float(np.max(np.abs(found.distance))))
+    far = worst.distance[int(np.argmax(np.abs(worst.distance)))]
+    fit = f"chi-square {outcome.chi_square:.3g}"
+    if outcome.degrees_of_freedom > 0:
+        freedom = f"{outcome.degrees_of_freedom} degree" + "s" * (outcome.degrees_of_freedom > 1)
+        fit += f" with {freedom} of freedom, probability {outcome.probability:.2g}"
+    lines.append(
+        f"The targets are {'met' if outcome.meets_targets else 'not met'} within their "
+        f"uncertainties ({fit}); farthest is {worst.target.name}, {far:+.2g} standard deviations."
+    )
+    return " ".join(lines)
+
+
+def _combination(row: Array, names: list[str]) -> str:
+    """A combination of shares: one parameter by its name, or several with their weights."""
+    lead = int(np.argmax(np.abs(row)))
+    if row[lead] ** 2 >= _ALONE:
+        return f"{names[lead]} alone"
+    signed = row * np.sign(row[lead])
+    terms = [
+        f"{weight:+.2f} {name}"
+        for weight, name in zip(signed, names, strict=True)
+        if abs(weight) >= 0.05
+    ]
+    return "the combination " + " ".join(terms) + " (of shares of the ranges)"

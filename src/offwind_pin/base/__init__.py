@@ -1,0 +1,1 @@
+"""Shared by all rooms: errors, compiled kernels, definitions' base class, tables, whole files."""

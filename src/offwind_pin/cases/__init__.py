@@ -1,0 +1,1 @@
+"""One load case as data: schema, run, summary."""

@@ -1,0 +1,85 @@
+"""Tables and notes on standard output."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from rich.console import Console
+from rich.table import Table
+
+from offwind_pin.analysis.foundation.study.study import SoilOverview
+from offwind_pin.cases.summary import summarise_damping
+from offwind_pin.cases.turbine_overview import Overview
+from offwind_pin.display.report.soil_report import soil_tables
+from offwind_pin.dynamics.system import System
+from offwind_pin.verification.ledger import Outcome
+from offwind_pin.verification.page import outcome_cells
+
+
+def print_surrogate(surrogate: str | None) -> None:
+    if surrogate:
+        Console().print(f"Surrogate soil: {surrogate}", style="yellow")
+
+
+def print_notes(system: System) -> None:
+    """What a reader of modes must know besides."""
+    print_surrogate(system.foundation.surrogate)
+    damping = summarise_damping(system)
+    if not damping["asked"]:
+        text = "No structural damping: the turbine file has no structural_damping block."
+        Console().print(text, style="yellow")
+    for label, asked in damping["asked"].items():
+        achieved = damping["achieved"][label]
+        if abs(achieved / asked - 1) > 0.05:
+            text = f"Damping of {label}: {asked:.4g} asked for, {achieved:.4g} achieved."
+            Console().print(text, style="yellow")
+
+
+def print_outcomes(outcomes: Sequence[Outcome]) -> None:
+    """A table for each group, and what failed once more at the end."""
+    console = Console()
+    for group in dict.fromkeys(outcome.row.group for outcome in outcomes):
+        table = Table("row", "found", "off by", "allowed", "", title=f"\n{group}", box=None)
+        table.title_justify = "left"
+        for outcome in outcomes:
+            if outcome.row.group == group:
+                name, _, found, _, *cells = outcome_cells(outcome)
+                table.add_row(name, found, *cells, style=_OUTCOME_STYLE[outcome.status])
+        console.print(table)
+    passed = sum(outcome.status == "pass" for outcome in outcomes)
+    absent = [outcome for outcome in outcomes if outcome.status == "not run"]
+    console.print(f"{passed} of {len(outcomes)} rows passed, {len(absent)} not run.")
+    for outcome in outcomes:
+        if outcome.status != "pass":
+            text = f"{outcome.row.id}: {outcome.status}, {outcome.row.quantity}"
+            text += "" if outcome.reason is None else f" ({outcome.reason})"
+            console.print(text, soft_wrap=True, markup=False)
+
+
+_OUTCOME_STYLE = {"pass": "", "fail": "bold red", "not run": "yellow"}
+
+
+def print_soil(overview: SoilOverview) -> None:
+    console = Console()
+    for title, columns, rows in soil_tables(overview):
+        table = Table(*columns, title=title, title_justify="left", show_header=any(columns))
+        for column in table.columns[1:]:
+            column.justify = "right"
+        for row in rows:
+            table.add_row(*row)
+        console.print(table)
+    if overview.state is not None:
+        console.print(f"State: {overview.state.origin}", soft_wrap=True)
+    for text in (*overview.foundation.cautions, *overview.remarks):
+        console.print(text, style="yellow", markup=False)
+    print_surrogate(overview.foundation.surrogate)
+
+
+def print_overview(facts: Overview) -> None:
+    console = Console()
+    for title, rows in facts.tables():
+        table = Table(title=title, show_header=False, title_justify="left")
+        for name, value in rows:
+            table.add_row(name, value)
+        console.print(table)
+    print_surrogate(facts.surrogate)

@@ -1,0 +1,206 @@
+"""What water does to the members: coefficients, marine growth, water inside, buoyancy."""
+
+from __future__ import annotations
+
+import itertools
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from pydantic import Discriminator, Field, Tag, model_validator
+
+from offwind_pin.base.definition import Array, Definition, NonNegative, Number, Positive
+
+Height = Annotated[Number, Field(ge=-1000, le=1000)]
+CoefficientValue = Annotated[NonNegative, Field(le=10)]
+Values = Annotated[tuple[CoefficientValue, ...], Field(min_length=2)]
+
+
+class CoefficientOverHeight(Definition):
+    """Coefficient at heights, linear in between, constant beyond both ends."""
+
+    z: Annotated[tuple[Height, ...], Field(min_length=2)] = Field(alias="z_m")
+    value: Values
+
+    @model_validator(mode="after")
+    def _table_is_complete(self) -> CoefficientOverHeight:
+        _check_table("z_m", self.z, self.value)
+        return self
+
+    def at(self, height: Array, keulegan_carpenter: Array) -> Array:
+        """(n,) at heights in m."""
+        return np.interp(height, self.z, self.value)
+
+
+class CoefficientOverKeuleganCarpenter(Definition):
+    """Coefficient over the Keulegan-Carpenter number, linear in between, constant beyond."""
+
+    keulegan_carpenter: Annotated[tuple[NonNegative, ...], Field(min_length=2)]
+    value: Values
+
+    @model_validator(mode="after")
+    def _table_is_complete(self) -> CoefficientOverKeuleganCarpenter:
+        _check_table("keulegan_carpenter", self.keulegan_carpenter, self.value)
+        return self
+
+    def at(self, height: Array, keulegan_carpenter: Array) -> Array:
+        """(n,) at Keulegan-Carpenter numbers."""
+        return np.interp(keulegan_carpenter, self.keulegan_carpenter, self.value)
+
+
+def _check_table(name: str, place: tuple[float, ...], value: tuple[float, ...]) -> None:
+    """Two columns that belong together.
+
+    Raises
+    ------
+    ValueError : they are of different lengths, or the places do not rise
+    """
+    if len(place) != len(value):
+        raise ValueError(
+            f"{name} has {len(place)} entries and value {len(value)}; give one value for each"
+        )
+    if np.any(np.diff(place) <= 0):
+        raise ValueError(f"{name} must rise strictly; sort the table")
+
+
+def _kind_of_coefficient(value: Any) -> str:
+    if isinstance(value, CoefficientOverHeight):
+        return "height"
+    if isinstance(value, CoefficientOverKeuleganCarpenter):
+        return "keulegan_carpenter"
+    if isinstance(value, dict):
+        return "keulegan_carpenter" if "keulegan_carpenter" in value else "height"
+    return "constant"
+
+
+Coefficient = Annotated[
+    Annotated[CoefficientValue, Tag("constant")]
+    | Annotated[CoefficientOverHeight, Tag("height")]
+    | Annotated[CoefficientOverKeuleganCarpenter, Tag("keulegan_carpenter")],
+    Discriminator(_kind_of_coefficient),
+]
+"""A plain number, ``{z_m, value}`` or ``{keulegan_carpenter, value}``."""
+
+
+def coefficient_at(coefficient: Coefficient, height: Array, keulegan_carpenter: Array) -> Array:
+    """(n,) a coefficient at heights in m and Keulegan-Carpenter numbers."""
+    if isinstance(coefficient, CoefficientOverHeight | CoefficientOverKeuleganCarpenter):
+        return coefficient.at(height, keulegan_carpenter)
+    return np.full(len(height), coefficient)
+
+
+class MarineGrowth(Definition):
+    """Layer of marine growth between two heights, on the outside of the wall.
+
+    The default density is that which DNV's rules for offshore structures give for want of a better
+    one. The drag coefficient is that of the rough surface, by default the smooth one's.
+    """
+
+    z: tuple[Height, Height] = Field(alias="z_m")
+    thickness: Annotated[Positive, Field(le=1)] = Field(alias="thickness_m")
+    density: Annotated[Positive, Field(ge=1000, le=3000)] = Field(
+        alias="density_kg_per_m3", default=1325.0
+    )
+    drag_coefficient: CoefficientValue | None = None
+
+    @model_validator(mode="after")
+    def _has_height(self) -> MarineGrowth:
+        if self.z[1] <= self.z[0]:
+            raise ValueError(
+                f"z_m runs from {self.z[0]} to {self.z[1]} m; give the lower end first"
+            )
+        return self
+
+    @property
+    def bottom(self) -> float:
+        return self.z[0]
+
+    @property
+    def top(self) -> float:
+        return self.z[1]
+
+
+class SealedPile(Definition):
+    """Nothing inside."""
+
+    kind: Literal["sealed"]
+
+
+class FloodedPile(Definition):
+    """Water inside, from a plug (by default at the mudline) up to a level."""
+
+    kind: Literal["flooded"]
+    level: Height = Field(alias="level_m")
+    plug: Height | None = Field(alias="plug_m", default=None)
+    density: Annotated[Positive, Field(ge=900, le=1500)] | None = Field(
+        alias="density_kg_per_m3", default=None
+    )
+
+
+Contents = Annotated[SealedPile | FloodedPile, Field(discriminator="kind")]
+
+
+class Hydrodynamics(Definition):
+    """Coefficients of Morison's equation, and what else the water does to the members.
+
+    Attributes
+    ----------
+    added_mass_coefficient, drag_coefficient : constant, over height, or over the
+        Keulegan-Carpenter number
+    diffraction : ``"none"``, or ``"maccamy_fuchs"`` for the wave's inertia force
+    marine_growth : layers, from the lowest to the highest
+    contents : what is inside below the level
+    buoyancy : whether hydrostatic pressure acts on the walls
+    """
+
+    added_mass_coefficient: Coefficient
+    drag_coefficient: Coefficient
+    diffraction: Literal["none", "maccamy_fuchs"] = "none"
+    marine_growth: tuple[MarineGrowth, ...] = ()
+    contents: Contents = SealedPile(kind="sealed")
+    buoyancy: bool = True
+
+    @model_validator(mode="after")
+    def _layers_rise(self) -> Hydrodynamics:
+        for lower, upper in itertools.pairwise(self.marine_growth):
+            if upper.bottom < lower.top:
+                raise ValueError(
+                    f"a layer of marine_growth begins at z_m = {upper.bottom}, below the top of "
+                    f"the one before it ({lower.top}); list layers from the lowest up, without "
+                    "overlap"
+                )
+        return self
+
+    @property
+    def needs_keulegan_carpenter(self) -> bool:
+        """Whether a coefficient depends on the Keulegan-Carpenter number."""
+        given = (self.added_mass_coefficient, self.drag_coefficient)
+        return any(isinstance(one, CoefficientOverKeuleganCarpenter) for one in given)
+
+    def growth_at(self, height: Array) -> Array:
+        """(n,) thickness of marine growth in m at heights; on a boundary that of the upper one."""
+        thickness = np.zeros(len(height))
+        for layer in self.marine_growth:
+            thickness[(height >= layer.bottom) & (height < layer.top)] = layer.thickness
+        return thickness
+
+    def check_fits(self, mudline: float, top: float) -> None:
+        """Growth and water inside that lie on the structure.
+
+        Raises
+        ------
+        ValueError : they do not
+        """
+        for layer in self.marine_growth:
+            if layer.bottom < mudline or layer.top > top:
+                raise ValueError(
+                    f"marine growth from z_m = {layer.bottom} to {layer.top} leaves the structure "
+                    f"above the mudline, which runs from {mudline} to {top} m; correct its ends"
+                )
+        if isinstance(self.contents, FloodedPile):
+            plug = mudline if self.contents.plug is None else self.contents.plug
+            if not mudline <= plug < self.contents.level <= top:
+                raise ValueError(
+                    f"water inside from a plug at {plug} m to a level_m of {self.contents.level} "
+                    f"does not lie between the mudline and the top ({mudline} to {top} m) in this "
+                    "order; correct plug_m or level_m"
+                )

@@ -1,0 +1,107 @@
+"""The disc that the rotor sweeps: where it is, how it is tilted, and what drives it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from offwind_pin.base.errors import InputError
+from offwind_pin.definitions.rotor import GEOMETRY, Rotor
+from offwind_pin.definitions.rotor_nacelle import rotor_radius
+from offwind_pin.definitions.turbine import RotorNacelleRNA, Turbine
+
+
+@dataclass(frozen=True)
+class RotorDisc:
+    """A turbine's rotor in SI.
+
+    Attributes
+    ----------
+    rotor : its tables
+    blades : how many
+    radius, overhang, tower_to_shaft : in m; the shaft crosses the tower's axis ``tower_to_shaft``
+        above the yaw bearing
+    tilt : of the shaft in rad, negative where an upwind rotor looks upwards
+    shaft_height : of that crossing above still water level in m
+    tower_height, tower_diameter : stations of the tower that stands behind or before it, in m
+    """
+
+    rotor: Rotor
+    blades: int
+    radius: float
+    overhang: float
+    tower_to_shaft: float
+    tilt: float
+    shaft_height: float
+    tower_height: tuple[float, ...]
+    tower_diameter: tuple[float, ...]
+
+    @property
+    def hub_height(self) -> float:
+        """Height of the rotor apex above still water level in m."""
+        return self.shaft_height + self.overhang * float(np.sin(self.tilt))
+
+    @property
+    def area(self) -> float:
+        """Swept area in m2."""
+        return float(np.pi * self.radius**2)
+
+    def speed(self, wind_speed: float) -> float:
+        """Rotor speed in rad/s at a wind speed in m/s.
+
+        Raises
+        ------
+        InputError : the turbine has no table of it
+        """
+        table = self.rotor.rotor_speed
+        if table is None:
+            raise InputError(
+                "rotor, field rotor_speed_rpm",
+                "nothing",
+                "a table {wind_speed_m_per_s: [...], value: [...]}",
+                "Add it: blades that turn sample shear, tower shadow and turbulence.",
+            )
+        return float(np.interp(wind_speed, table.wind_speed, table.value)) * np.pi / 30
+
+
+def rotor_disc(turbine: Turbine) -> RotorDisc:
+    """The disc of a turbine's rotor.
+
+    Raises
+    ------
+    InputError : the turbine has no block ``rotor``, or one that does not tell where the rotor is
+    """
+    rotor, rna = turbine.rotor, turbine.rna
+    if rotor is None:
+        raise InputError(
+            f"turbine {turbine.name}, field rotor",
+            "nothing",
+            "a block with thrust_coefficient and rated_wind_speed_m_per_s",
+            "Add it, see docs/turbine_file.md, or give a tower-top load file.",
+        )
+    given: RotorNacelleRNA | Rotor = rotor
+    if isinstance(rna, RotorNacelleRNA):
+        given, radius = rna, rotor.radius or rotor_radius(rna)
+    else:
+        missing = [name for name in GEOMETRY if getattr(rotor, name) is None]
+        if missing or rotor.radius is None:
+            keys = [Rotor.model_fields[name].alias or name for name in missing]
+            raise InputError(
+                f"turbine {turbine.name}, field rotor",
+                f"no {', '.join(keys)}",
+                "all of them, where rna is of kind rigid_body and does not tell",
+                "Add them, or give rotor and nacelle inputs.",
+            )
+        radius = rotor.radius
+    return RotorDisc(
+        rotor=rotor,
+        blades=int(given.blades or 0),
+        radius=radius,
+        overhang=float(given.overhang or 0.0),
+        tower_to_shaft=float(given.tower_to_shaft or 0.0),
+        tilt=float(np.radians(given.shaft_tilt or 0.0)),
+        shaft_height=turbine.yaw_bearing + float(given.tower_to_shaft or 0.0),
+        tower_height=tuple(station.z for station in turbine.members[-1].stations),
+        tower_diameter=tuple(station.diameter for station in turbine.members[-1].stations),
+    )

@@ -1,0 +1,1 @@
+"""Soil as a user describes it: layers, springs, PISA parameters, plausible ranges."""

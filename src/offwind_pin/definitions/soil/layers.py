@@ -1,0 +1,161 @@
+"""Layered ground: each layer with a published family of p-y curves and its own parameters.
+
+Depths, of layer tops and of profiles within a layer, are counted from the original mudline,
+whatever the scour.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+import numpy as np
+from pydantic import AfterValidator, Field, model_validator
+
+from offwind_pin.base.definition import Definition, NonNegative, Number, Positive
+from offwind_pin.definitions.soil.depth_profile import DepthProfile
+from offwind_pin.definitions.soil.pisa import CALIBRATIONS, PisaParameters
+from offwind_pin.definitions.soil.ranges import (
+    check_friction_angle,
+    check_relative_density,
+    check_rigidity,
+    check_shear_modulus,
+    check_strain_50,
+    check_strength,
+    check_unit_weight,
+)
+
+Strength = Annotated[DepthProfile, AfterValidator(check_strength)]
+ShearModulus = Annotated[DepthProfile, AfterValidator(check_shear_modulus)]
+Strain50 = Annotated[Positive, AfterValidator(check_strain_50)]
+
+_JUDGED_THICKNESS = np.linspace(0.0, 10.0, 11)
+"""Depths below a layer's top, in m, at which its stiffness and strength are compared."""
+
+
+class _Layer(Definition):
+    """What every layer has."""
+
+    top: NonNegative = Field(alias="top_m")
+    submerged_unit_weight: Annotated[Positive, AfterValidator(check_unit_weight)] = Field(
+        alias="submerged_unit_weight_n_per_m3"
+    )
+
+
+class ApiSand(_Layer):
+    """Sand of API RP 2GEO: p = A p_u tanh(k z y / (A p_u)).
+
+    ``initial_modulus`` is k, the rise of the initial modulus with depth; without it k follows from
+    the friction angle.
+    """
+
+    model: Literal["api_sand"]
+    friction_angle: Annotated[Positive, AfterValidator(check_friction_angle)] = Field(
+        alias="friction_angle_deg"
+    )
+    initial_modulus: Annotated[Positive, Field(ge=1e5, le=1e9)] | None = Field(
+        alias="initial_modulus_n_per_m3", default=None
+    )
+
+
+class MatlockClay(_Layer):
+    """Soft clay of Matlock (1970), as in API RP 2GEO."""
+
+    model: Literal["matlock_clay"]
+    undrained_shear_strength: Strength = Field(alias="undrained_shear_strength_pa")
+    strain_50: Strain50
+    j: Annotated[Number, Field(ge=0.25, le=0.5)] = Field(
+        default=0.5, description="Matlock's J; 0.5 is his value for soft clay"
+    )
+
+
+class StiffClay(_Layer):
+    """Stiff clay without free water, Reese and Welch (1975): p = p_u / 2 (y / y50)^(1/4)."""
+
+    model: Literal["stiff_clay"]
+    undrained_shear_strength: Strength = Field(alias="undrained_shear_strength_pa")
+    strain_50: Strain50
+    cycles: Annotated[Number, Field(ge=1, le=1e9)] | None = None
+
+
+class Pisa(_Layer):
+    """Soil reactions of the PISA project, for monotonic loading of monopiles.
+
+    Clay takes the undrained shear strength, sand the relative density.
+    """
+
+    model: Literal["pisa"]
+    calibration: Literal["cowden_till", "bothkennar_clay", "general_dunkirk_sand"] | None = None
+    parameters: PisaParameters | None = None
+    shear_modulus: ShearModulus = Field(alias="shear_modulus_pa")
+    undrained_shear_strength: Strength | None = Field(
+        alias="undrained_shear_strength_pa", default=None
+    )
+    relative_density: Annotated[Positive, AfterValidator(check_relative_density)] | None = None
+
+    @model_validator(mode="after")
+    def _complete(self) -> Pisa:
+        if (self.calibration is None) == (self.parameters is None):
+            raise ValueError(
+                "a pisa layer needs either calibration or parameters; give one of the two, of "
+                f"calibrations {', '.join(CALIBRATIONS)}"
+            )
+        needed, other = "undrained_shear_strength", "relative_density"
+        if self.reactions.soil == "sand":
+            needed, other = other, needed
+        if getattr(self, needed) is None or getattr(self, other) is not None:
+            keys = {"undrained_shear_strength": "undrained_shear_strength_pa"}
+            raise ValueError(
+                f"a pisa layer of {self.reactions.soil} takes {keys.get(needed, needed)} and not "
+                f"{keys.get(other, other)}; give the former only"
+            )
+        if self.undrained_shear_strength is not None:
+            depth = self.top + _JUDGED_THICKNESS
+            check_rigidity(self.shear_modulus.at(depth), self.undrained_shear_strength.at(depth))
+        return self
+
+    @property
+    def reactions(self) -> PisaParameters:
+        """The layer's parameters, published or its own."""
+        if self.parameters is not None:
+            return self.parameters
+        return CALIBRATIONS[str(self.calibration)]
+
+
+Layer = ApiSand | MatlockClay | StiffClay | Pisa
+
+
+class LayeredGround(Definition):
+    """p-y curves from the layers of the ground; exactly on a boundary the layer below holds."""
+
+    kind: Literal["layers"]
+    loading: Literal["static", "cyclic"]
+    layers: tuple[Annotated[Layer, Field(discriminator="model")], ...]
+
+    @model_validator(mode="after")
+    def _layers_fit(self) -> LayeredGround:
+        if not self.layers:
+            raise ValueError("there are no layers; give one at least, with top_m = 0")
+        tops = [layer.top for layer in self.layers]
+        if tops[0] != 0:
+            raise ValueError(
+                f"the first layer starts at top_m = {tops[0]}; it must start at the mudline, "
+                "top_m = 0"
+            )
+        if np.any(np.diff(tops) <= 0):
+            raise ValueError(
+                f"top_m of the layers are {tops}; they must rise strictly, from the mudline down"
+            )
+        for layer in self.layers:
+            if isinstance(layer, Pisa) and self.loading == "cyclic":
+                raise ValueError(
+                    "PISA's soil reactions hold for monotonic loading, and loading is cyclic; set "
+                    "loading: static, or use api_sand, matlock_clay or stiff_clay"
+                )
+            if isinstance(layer, StiffClay) and (layer.cycles is None) == (
+                self.loading == "cyclic"
+            ):
+                raise ValueError(
+                    f"a stiff_clay layer with cycles = {layer.cycles} under {self.loading} "
+                    "loading; cyclic loading needs the number of cycles, static loading has none"
+                )
+        return self

@@ -1,0 +1,329 @@
+"""What a turbine and its site are: typed, frozen, SI.
+
+A file carries units in its keys (``diameter_m``); in Python the same quantity is plain
+(``diameter``). Axes: x downwind, y left looking downwind, z up from still water level.
+"""
+
+from __future__ import annotations
+
+import itertools
+from typing import Annotated, Literal
+
+import numpy as np
+from pydantic import Field, model_validator
+
+from offwind_pin.base.definition import Definition, NonNegative, Number, Positive, Vector3
+from offwind_pin.definitions.hydrodynamics import Height, Hydrodynamics
+from offwind_pin.definitions.rotor import GEOMETRY, Rotor
+from offwind_pin.definitions.soil.springs import Soil
+from offwind_pin.definitions.tuned_mass_damper import TunedMassDamper
+
+Angle = Annotated[Number, Field(ge=-30, le=30)]
+
+_KEPT_NAMES = {"base", "mono", "pile", "rna", "root", "world"}
+"""Names that the chain gives to parts of its own."""
+_KEPT_BEGINNING = "zz"
+"""Of joints that must come last in the alphabet; see :mod:`offwind_pin.structure.tuned_mass`."""
+
+
+class Material(Definition):
+    """Isotropic linear material."""
+
+    youngs_modulus: Annotated[Positive, Field(ge=1e6, le=1e13)] = Field(alias="youngs_modulus_pa")
+    shear_modulus: Annotated[Positive, Field(ge=1e6, le=1e13)] = Field(alias="shear_modulus_pa")
+    density: Annotated[Positive, Field(ge=100, le=25e3)] = Field(alias="density_kg_per_m3")
+
+
+class Station(Definition):
+    """Circular hollow section at one height; between stations both numbers vary linearly."""
+
+    z: Height = Field(alias="z_m")
+    diameter: Annotated[Positive, Field(le=50)] = Field(alias="diameter_m")
+    thickness: Annotated[Positive, Field(le=1)] = Field(alias="thickness_m")
+
+    @model_validator(mode="after")
+    def _wall_fits(self) -> Station:
+        if self.thickness > self.diameter / 2:
+            raise ValueError(
+                f"the wall thickness {self.thickness} m is larger than the radius "
+                f"{self.diameter / 2} m; thickness must not exceed half the diameter"
+            )
+        return self
+
+
+class Member(Definition):
+    """Part of the support structure between its lowest and highest station."""
+
+    name: Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$")]
+    material: str
+    stations: Annotated[tuple[Station, ...], Field(min_length=2)]
+
+    @model_validator(mode="after")
+    def _stations_rise(self) -> Member:
+        heights = [station.z for station in self.stations]
+        for lower, upper in itertools.pairwise(heights):
+            if upper <= lower:
+                raise ValueError(
+                    f"stations must rise strictly in z_m, but {upper} follows {lower}; "
+                    "sort them from the lowest to the highest"
+                )
+        return self
+
+    @property
+    def bottom(self) -> float:
+        return self.stations[0].z
+
+    @property
+    def top(self) -> float:
+        return self.stations[-1].z
+
+
+class PointMass(Definition):
+    """Mass on the axis of the structure (flange, platform, transition piece)."""
+
+    name: str
+    z: Height = Field(alias="z_m")
+    mass: NonNegative = Field(alias="mass_kg")
+    inertia: tuple[NonNegative, NonNegative, NonNegative] = Field(
+        alias="inertia_kg_m2", default=(0.0, 0.0, 0.0)
+    )
+
+    @model_validator(mode="after")
+    def _round(self) -> PointMass:
+        if self.inertia[0] != self.inertia[1]:
+            raise ValueError(
+                f"inertia_kg_m2 has {self.inertia[0]} about x and {self.inertia[1]} about y; "
+                "bodies of the chain are round, give the same value twice"
+            )
+        return self
+
+
+class RigidBodyRNA(Definition):
+    """Rotor-nacelle assembly as one rigid body; offsets from the yaw bearing."""
+
+    kind: Literal["rigid_body"]
+    mass: Positive = Field(alias="mass_kg")
+    center_of_mass: Vector3 = Field(alias="center_of_mass_m")
+    inertia: tuple[Vector3, Vector3, Vector3] = Field(alias="inertia_about_center_of_mass_kg_m2")
+
+    @model_validator(mode="after")
+    def _inertia_is_physical(self) -> RigidBodyRNA:
+        tensor = np.array(self.inertia)
+        if not np.allclose(tensor, tensor.T, rtol=1e-9, atol=1e-6 * np.abs(tensor).max()):
+            raise ValueError(
+                "the inertia tensor is not symmetric; give the same value at ij and ji"
+            )
+        principal = np.linalg.eigvalsh(tensor)
+        if principal[0] <= 0 or principal[2] > principal[0] + principal[1]:
+            raise ValueError(
+                f"principal moments {principal.tolist()} kg m2 cannot belong to a rigid body; each "
+                "must be positive and at most the sum of the other two"
+            )
+        return self
+
+
+class Blade(Definition):
+    """Mass per length of one blade over its normalised span."""
+
+    length: Positive = Field(alias="length_m")
+    span_fraction: Annotated[tuple[NonNegative, ...], Field(min_length=2)]
+    mass_density: Annotated[tuple[NonNegative, ...], Field(min_length=2)] = Field(
+        alias="mass_density_kg_per_m"
+    )
+
+    @model_validator(mode="after")
+    def _table_is_complete(self) -> Blade:
+        if len(self.span_fraction) != len(self.mass_density):
+            raise ValueError(
+                f"span_fraction has {len(self.span_fraction)} entries and mass_density_kg_per_m "
+                f"{len(self.mass_density)}; give one density for each fraction"
+            )
+        if self.span_fraction[0] != 0 or self.span_fraction[-1] != 1:
+            raise ValueError("span_fraction must run from 0 (root) to 1 (tip)")
+        if np.any(np.diff(self.span_fraction) <= 0):
+            raise ValueError("span_fraction must rise strictly; sort the table from root to tip")
+        return self
+
+
+class RotorNacelleRNA(Definition):
+    """Rotor and nacelle inputs, to be lumped into one rigid body (rotor parked and locked).
+
+    Lengths and signs follow OpenFAST's ElastoDyn: overhang negative for an upwind rotor.
+    """
+
+    kind: Literal["rotor_nacelle"]
+    blades: Annotated[int, Field(ge=1, le=6)]
+    blade: Blade
+    hub_radius: Positive = Field(alias="hub_radius_m")
+    precone: Angle = Field(alias="precone_deg")
+    hub_center_of_mass: Number = Field(alias="hub_center_of_mass_m")
+    overhang: Number = Field(alias="overhang_m")
+    shaft_tilt: Angle = Field(alias="shaft_tilt_deg")
+    tower_to_shaft: Number = Field(alias="tower_to_shaft_m")
+    hub_mass: NonNegative = Field(alias="hub_mass_kg")
+    hub_inertia: NonNegative = Field(alias="hub_inertia_kg_m2")
+    generator_inertia: NonNegative = Field(alias="generator_inertia_kg_m2")
+    nacelle_mass: NonNegative = Field(alias="nacelle_mass_kg")
+    nacelle_yaw_inertia: NonNegative = Field(alias="nacelle_yaw_inertia_kg_m2")
+    nacelle_center_of_mass: Vector3 = Field(alias="nacelle_center_of_mass_m")
+    yaw_bearing_mass: NonNegative = Field(alias="yaw_bearing_mass_kg")
+
+    @model_validator(mode="after")
+    def _masses_are_physical(self) -> RotorNacelleRNA:
+        x, y, _ = self.nacelle_center_of_mass
+        if self.nacelle_yaw_inertia < self.nacelle_mass * (x**2 + y**2):
+            raise ValueError(
+                f"nacelle_yaw_inertia_kg_m2 = {self.nacelle_yaw_inertia} is less than the "
+                f"nacelle's mass times its arm squared ({self.nacelle_mass * (x**2 + y**2)}); "
+                "give the inertia about the yaw axis"
+            )
+        if not any(self.blade.mass_density):
+            raise ValueError("the blade weighs nothing; mass_density_kg_per_m must not be all zero")
+        return self
+
+
+class Site(Definition):
+    """Water, mudline and gravity.
+
+    The original mudline lies at z = -water_depth, the actual one deeper by the scour depth (higher,
+    where it is negative: deposition).
+    """
+
+    water_depth: Annotated[Positive, Field(le=500)] = Field(alias="water_depth_m")
+    scour_depth: Annotated[Number, Field(ge=-20, le=50)] = Field(alias="scour_depth_m", default=0.0)
+    water_density: Annotated[Positive, Field(ge=900, le=1200)] = Field(
+        alias="water_density_kg_per_m3"
+    )
+    gravity: Annotated[Positive, Field(ge=1, le=30)] = Field(alias="gravity_m_per_s2")
+
+    @model_validator(mode="after")
+    def _mudline_under_water(self) -> Site:
+        if self.mudline >= 0:
+            raise ValueError(
+                f"a scour_depth_m of {self.scour_depth} lifts the mudline to z = {self.mudline} m, "
+                "out of the water; a negative scour depth is deposition"
+            )
+        return self
+
+    @property
+    def mudline(self) -> float:
+        """Height of the actual mudline in m."""
+        return -(self.water_depth + self.scour_depth)
+
+
+class DampingCalibration(Definition):
+    """Structural damping: the ratios that modes of the supported structure shall reach."""
+
+    foundation: Literal["clamped", "coupled_springs"]
+    still_water: bool
+    ratios: dict[
+        Annotated[str, Field(pattern=r"^(FA|SS|T|V)[1-9]$")], Annotated[Positive, Field(lt=1)]
+    ] = Field(alias="ratios_of_critical", min_length=1)
+
+
+class Turbine(Definition):
+    """A monopile wind turbine and its site."""
+
+    name: Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9._-]*$")]
+    description: str = ""
+    site: Site
+    materials: dict[str, Material]
+    members: Annotated[tuple[Member, ...], Field(min_length=1)]
+    point_masses: tuple[PointMass, ...] = ()
+    tuned_mass_dampers: tuple[TunedMassDamper, ...] = ()
+    rna: Annotated[RigidBodyRNA | RotorNacelleRNA, Field(discriminator="kind")]
+    rotor: Rotor | None = None
+    hydrodynamics: Hydrodynamics
+    soil: Soil
+    structural_damping: DampingCalibration | None = None
+
+    @model_validator(mode="after")
+    def _parts_fit(self) -> Turbine:
+        for member in self.members:
+            if member.material not in self.materials:
+                raise ValueError(
+                    f"member {member.name} is made of {member.material!r}, which materials does "
+                    f"not list (it has {', '.join(self.materials)})"
+                )
+        names = [member.name for member in self.members]
+        if len(set(names)) < len(names) or not _KEPT_NAMES.isdisjoint(names):
+            raise ValueError(
+                f"members are named {', '.join(names)}; give them different names, and none of "
+                f"{', '.join(sorted(_KEPT_NAMES))}"
+            )
+        for name in names:
+            if name.startswith(_KEPT_BEGINNING):
+                raise ValueError(
+                    f"member {name} begins with {_KEPT_BEGINNING}, as joints of tuned mass dampers "
+                    "do; give it another name"
+                )
+        for lower, upper in zip(self.members, self.members[1:], strict=False):
+            if upper.bottom != lower.top:
+                raise ValueError(
+                    f"member {upper.name} starts at z_m = {upper.bottom}, but {lower.name} ends at "
+                    f"{lower.top}; list members from the toe upwards, without gaps"
+                )
+        if self.site.mudline < self.toe:
+            raise ValueError(
+                f"the mudline (z = {self.site.mudline} m, from water_depth_m and "
+                f"scour_depth_m) lies below the pile toe (z = {self.toe} m); "
+                "lower the toe or reduce the water depth"
+            )
+        if self.site.mudline >= self.yaw_bearing:
+            raise ValueError(
+                "the whole structure lies below the mudline; check z_m of the stations"
+            )
+        for mass in self.point_masses:
+            if not self.toe <= mass.z <= self.yaw_bearing:
+                raise ValueError(
+                    f"point mass {mass.name!r} at z_m = {mass.z} is off the structure, which runs "
+                    f"from {self.toe} to {self.yaw_bearing} m"
+                )
+        self.hydrodynamics.check_fits(self.site.mudline, self.yaw_bearing)
+        return self
+
+    @model_validator(mode="after")
+    def _rotor_is_placed_once(self) -> Turbine:
+        if self.rotor is None or isinstance(self.rna, RigidBodyRNA):
+            return self
+        given = [name for name in GEOMETRY if getattr(self.rotor, name) is not None]
+        if given not in ([], ["radius"]):
+            raise ValueError(
+                f"rotor gives {', '.join(given)}, which rna gives already; keep radius_m at most"
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _dampers_fit(self) -> Turbine:
+        names = [damper.name for damper in self.tuned_mass_dampers]
+        if len(set(names)) < len(names):
+            raise ValueError(
+                f"tuned mass dampers are named {', '.join(names)}; give them different names"
+            )
+        for damper in self.tuned_mass_dampers:
+            if not self.site.mudline <= damper.z <= self.yaw_bearing:
+                raise ValueError(
+                    f"tuned mass damper {damper.name} at z_m = {damper.z} is off the structure "
+                    f"above the mudline, which runs from {self.site.mudline} to "
+                    f"{self.yaw_bearing} m; hang it in there"
+                )
+        return self
+
+    def with_dampers_locked(self) -> Turbine:
+        """The same with each tuned mass damper as a point mass that cannot slide."""
+        locked = tuple(
+            PointMass(name=damper.name, z_m=damper.z, mass_kg=damper.mass)
+            for damper in self.tuned_mass_dampers
+        )
+        masses = (*self.point_masses, *locked)
+        return self.model_copy(update={"point_masses": masses, "tuned_mass_dampers": ()})
+
+    @property
+    def toe(self) -> float:
+        """Height of the lowest station in m."""
+        return self.members[0].bottom
+
+    @property
+    def yaw_bearing(self) -> float:
+        """Height of the highest station in m, where the rotor-nacelle assembly sits."""
+        return self.members[-1].top

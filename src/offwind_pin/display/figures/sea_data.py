@@ -1,0 +1,235 @@
+"""The numbers behind the pictures of a sea and its loads."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from offwind_pin.base.definition import Array
+from offwind_pin.loads.sea.forces.morison import MorisonForce
+from offwind_pin.loads.sea.forces.strips import wet_share
+from offwind_pin.loads.sea.hydrodynamic_loads import Waters
+from offwind_pin.loads.sea.irregular_waves import IrregularWaves
+from offwind_pin.loads.sea.kinematics import WaterSeries, WaterSurface
+from offwind_pin.loads.sea.sea import Sea
+from offwind_pin.loads.sea.waves.wave_field import WaveField
+
+_HEIGHTS = 121
+"""Heights of a profile between the mudline and the highest surface."""
+_SEARCHED = 10
+"""Mean wave periods before and after a crest in which its zero crossing and trough are sought."""
+_PER_PERIOD = 200
+_SPECTRUM = 20
+"""Components from which on waves have a spectrum."""
+_AT_ONCE = 2000
+_MOST_INSTANTS = 20000
+"""Instants of an envelope of forces; of a longer time every second one, third one, ..."""
+
+Density = Callable[[Array], Array]
+
+
+def wave_direction(waves: WaveField) -> Array:
+    """(2,) unit vector along which waves carry their energy.
+
+    A component's velocity at the surface is in phase with its elevation, along its way.
+    """
+    surface = waves.velocity(np.zeros(1))[:2, 0]
+    flux = np.real(surface @ np.conj(waves.elevation))
+    return np.asarray(flux / np.hypot(*flux))
+
+
+def mean_period(waves: WaveField) -> float:
+    """m0 / m1 of the surface, in s."""
+    variance = np.abs(waves.elevation) ** 2
+    moving = waves.omega > 0
+    mean_frequency = np.average(waves.omega[moving], weights=variance[moving]) / (2 * np.pi)
+    return float(1 / mean_frequency)
+
+
+@dataclass(frozen=True)
+class Phases:
+    """Times in s of a crest, of the zero crossing before it, and of the trough after it.
+
+    In a regular wave the particles' acceleration along the wave is largest at that crossing.
+    """
+
+    crest: float
+    crossing: float
+    trough: float
+
+
+def phases(surface: WaterSurface, waves: WaveField, crest: float) -> Phases:
+    """Zero up-crossing before a crest, and the lowest surface before the next zero up-crossing.
+
+    crest : time in s of a crest of these waves
+    """
+    step = mean_period(waves) / _PER_PERIOD
+    ahead: Array = step * np.arange(_SEARCHED * _PER_PERIOD, dtype=float)
+    before, after = surface.elevation(crest - ahead), surface.elevation(crest + ahead)
+    up = int(np.argmax(before < 0))
+    down = int(np.argmax(after < 0))
+    next_up = down + int(np.argmax(after[down:] > 0))
+    end = next_up if next_up > down else len(after)
+    low = down + int(np.argmin(after[down:end]))
+    # the crossing itself lies between the last two of the samples
+    share = before[up - 1] / (before[up - 1] - before[up]) if up > 0 else 0.0
+    return Phases(crest, crest - step * (max(up - 1, 0) + share), crest + step * low)
+
+
+@dataclass(frozen=True)
+class Profile:
+    """Motion of the undisturbed water over height at one instant, up to its surface.
+
+    Attributes
+    ----------
+    time : in s
+    elevation : of the surface in m above the level
+    height : (n,) in m, from the mudline to where the strips are wet
+    velocity, acceleration : (n, 2) along x and y, in m/s and m/s2; the velocity with the current
+    current : (n, 2) in m/s
+    """
+
+    time: float
+    elevation: float
+    height: Array
+    velocity: Array
+    acceleration: Array
+    current: Array
+
+
+def profiles(waters: Waters, sea: Sea, times: Array) -> list[Profile]:
+    """Of fully grown waves at times (t,) in s, with the sea's own stretching."""
+    surface, mudline = waters.surface, waters.turbine.site.mudline
+    tops = surface.at(times, np.ones(len(times)))
+    # closest at both ends, where currents fall off and waves grow
+    share = (1 - np.cos(np.linspace(0, np.pi, _HEIGHTS))) / 2
+    height = np.union1d(mudline + share * (tops.max() - mudline), tops)
+    current = np.zeros((len(height), 3))
+    if sea.current is not None:
+        current = sea.current.velocity(height - surface.level, surface.level - mudline)
+    water = WaterSeries(height, surface, current=current)
+    rows = water.rows(times, np.ones(len(times)))
+    motion = rows[:, 1:].reshape(len(times), 2, len(height), 3)
+    elevation = surface.elevation(times)
+    return [
+        Profile(
+            float(time),
+            float(elevation[i]),
+            height[height <= tops[i]],
+            motion[i, 0, height <= tops[i], :2],
+            motion[i, 1, height <= tops[i], :2],
+            current[height <= tops[i], :2],
+        )
+        for i, time in enumerate(times)
+    ]
+
+
+def target_density(sea: Sea, depth: float, gravity: float) -> Density | None:
+    """Spectrum in m2/Hz, of frequencies in Hz, that a sea was drawn from; None if from none."""
+    if not isinstance(sea, IrregularWaves):
+        return None
+    target = sea.target
+    return lambda frequency: target.density(frequency, depth, gravity)
+
+
+def has_spectrum(waves: WaveField) -> bool:
+    """Whether waves have so many components that a density means something."""
+    return int(np.count_nonzero(waves.elevation)) >= _SPECTRUM
+
+
+def component_density(waves: WaveField, width: float) -> tuple[Array, Array]:
+    """Variance of the components in m2/Hz, gathered in bands of a width in Hz or a little more.
+
+    Bands are made of a whole number of harmonics, so that each holds as many as the next; the
+    last, incomplete one is left out. Waves that one band holds all of make one as wide as they are.
+
+    Returns
+    -------
+    frequency : (b,) middles of the bands in Hz
+    density : (b,) in m2/Hz
+    """
+    each = max(1, int(np.ceil(width * waves.period)))
+    moving = waves.harmonic > 0  # the set-down of waves of second order is no variance
+    harmonic = waves.harmonic[moving].astype(np.intp)
+    variance = np.zeros(int(harmonic.max()) + 1)
+    np.add.at(variance, harmonic, np.abs(waves.elevation[moving]) ** 2 / 2)
+    first = int(harmonic.min())
+    each = min(each, len(variance) - first)
+    bands = (len(variance) - first) // each
+    whole = variance[first : first + bands * each].reshape(bands, each)
+    middle: Array = first + each * np.arange(bands, dtype=float) + (each - 1) / 2
+    return middle / waves.period, np.asarray(whole.sum(axis=1) * waves.period / each)
+
+
+@dataclass(frozen=True)
+class ForcePerLength:
+    """Forces in N/m on strips along one direction, over all their length, wet or not.
+
+    Attributes
+    ----------
+    time : (t,) in s
+    height, length : (n,) of the strips in m
+    inertia, drag : (t, n)
+    """
+
+    time: Array
+    height: Array
+    length: Array
+    inertia: Array
+    drag: Array
+
+    @property
+    def total(self) -> Array:
+        """(t, n) inertia and drag together."""
+        return self.inertia + self.drag
+
+    @property
+    def resultant(self) -> Array:
+        """(t,) total force of all strips in N."""
+        return self.total @ self.length
+
+    def moment(self, mudline: float) -> Array:
+        """(t,) of the total force about a height in m, in N m."""
+        return self.total @ (self.length * (self.height - mudline))
+
+
+def force_per_length(force: MorisonForce, time: Array, along: Array) -> ForcePerLength:
+    """Of fully grown waves at times (t,) in s, on a structure that stands upright and still.
+
+    along : (2,) horizontal unit vector
+    """
+    strips = force.strips
+    n = len(strips.height)
+    rows = force.rows(time, np.ones(len(time)))
+    motion = rows[:, 1:].reshape(len(time), 2, n, 3)[..., :2]
+    inertia, drag = force.constants[:, 0], force.constants[:, 1]
+    share = _shares(rows[:, 0], force.constants[:, 2], force.constants[:, 3])
+    speed = np.linalg.norm(motion[:, 0], axis=-1)
+    return ForcePerLength(
+        time,
+        strips.height,
+        strips.length,
+        share * inertia * (motion[:, 1] @ along) / strips.length,
+        share * drag * speed * (motion[:, 0] @ along) / strips.length,
+    )
+
+
+def force_envelope(force: MorisonForce, time: Array, along: Array) -> tuple[Array, Array]:
+    """(n,) smallest and largest force per length in N/m over times (t,) in s."""
+    some = time[:: max(1, -(-len(time) // _MOST_INSTANTS))]
+    low = np.full(len(force.strips.height), np.inf)
+    high = -low
+    for first in range(0, len(some), _AT_ONCE):
+        total = force_per_length(force, some[first : first + _AT_ONCE], along).total
+        low, high = np.minimum(low, total.min(axis=0)), np.maximum(high, total.max(axis=0))
+    return low, high
+
+
+def _shares(surface: Array, bottom: Array, length: Array) -> Array:
+    """(t, n) wet shares of strips."""
+    result = np.ones((len(surface), len(bottom)))
+    for i in np.flatnonzero(np.isfinite(bottom)):
+        result[:, i] = [wet_share(level, bottom[i], length[i]) for level in surface]
+    return result

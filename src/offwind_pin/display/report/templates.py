@@ -1,0 +1,23 @@
+"""What the pages share: one environment for their templates, with the filters that they use."""
+
+from __future__ import annotations
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+
+from offwind_pin.base.mode_labels import mode_name
+from offwind_pin.display.wording import as_given, foundation_name, number, sentence
+
+
+def environment() -> Environment:
+    """Templates of pages; whatever goes into them is escaped, and nothing may be missing."""
+    made = Environment(
+        loader=PackageLoader("offwind_pin.display"),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    words = (as_given, mode_name, number, sentence)
+    made.filters |= {word.__name__: word for word in words}
+    made.globals["foundation_name"] = foundation_name
+    return made

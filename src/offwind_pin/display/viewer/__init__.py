@@ -1,0 +1,1 @@
+"""Meshcat pages, stills and frames."""

@@ -1,0 +1,78 @@
+"""All loads that act on a system, their memory, and where they meet the ground."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from offwind_pin.base.definition import Array
+from offwind_pin.base.errors import InputError
+from offwind_pin.dynamics.base_excitation import Grounding, check_reach, is_soil
+from offwind_pin.dynamics.system import System
+from offwind_pin.loads.earthquake.ground_motion import GroundMotion
+from offwind_pin.loads.point_load import (
+    KernelLoad,
+    PointLoad,
+)
+from offwind_pin.loads.root_restraint import KernelRestraint
+
+_REACH = 20.0
+"""m above the yaw bearing up to which the last body carries loads; shafts cross the axis below."""
+
+
+def grounding(system: System, loads: Sequence[PointLoad], motion: GroundMotion | None) -> Grounding:
+    """Where base and soil meet a moving ground, of all the loads of a system.
+
+    Raises
+    ------
+    InputError : the motion is not given at every depth that it is needed at
+    """
+    height = np.concatenate([np.zeros(0), *(load.height for load in loads)])
+    if motion is None:
+        return Grounding.nowhere(len(height))
+    chain, soil = system.chain, system.foundation.soil
+    check_reach(motion, chain.base, system.turbine.site.mudline)
+    meets = [np.full(len(load.height), is_soil(load, soil)) for load in loads]
+    everywhere = np.append(height, chain.base)
+    return Grounding.of(motion, everywhere, np.concatenate([*meets, [True]]))
+
+
+def split_memory(
+    loads: Sequence[PointLoad], root: KernelRestraint, memory: Array | None
+) -> list[Array]:
+    """What each load and, last, the root keep of their past; nothing happened unless given."""
+    sizes = [load.memory_size if isinstance(load, KernelLoad) else 0 for load in loads]
+    sizes.append(root.memory_size)
+    whole = np.zeros(sum(sizes)) if memory is None else memory
+    return np.split(whole, np.cumsum(sizes)[:-1])
+
+
+def all_loads(system: System, loads: Sequence[PointLoad]) -> list[PointLoad]:
+    """Every point load of a system: the water's, the soil's, and what was given.
+
+    Raises
+    ------
+    InputError : a load beside the structure
+    """
+    water = [] if system.waters is None else system.waters.loads()
+    everything: list[PointLoad] = [*water, *system.foundation.soil, *loads]
+    for load in everything:
+        highest = system.chain.top + _REACH
+        outside = (load.height < system.chain.base) | (load.height > highest)
+        if np.any(outside):
+            raise InputError(
+                f"load {load.name!r}, height",
+                float(load.height[outside][0]),
+                f"{system.chain.base} to {highest} m",
+                "Loads act on the axis of the structure, or of the nacelle above it.",
+            )
+    return everything
+
+
+def smooth_ramp(time: Array, duration: float) -> Array:
+    """(t,) half a cosine from 0 at time 0 to 1 at the end of the ramp."""
+    time = np.asarray(time, dtype=float)
+    if duration == 0:
+        return np.ones_like(time)
+    return 0.5 * (1 - np.cos(np.pi * np.clip(time / duration, 0.0, 1.0)))

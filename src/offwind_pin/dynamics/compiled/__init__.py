@@ -1,0 +1,1 @@
+"""The O(N) chain in compiled code."""

@@ -1,0 +1,210 @@
+"""What a time history records, as plain arrays for compiled code."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from offwind_pin.base.definition import Array
+from offwind_pin.dynamics.base_excitation import is_soil
+from offwind_pin.dynamics.compiled.chain_arrays import ChainArrays
+from offwind_pin.dynamics.system import System
+from offwind_pin.loads.point_load import PointLoad
+from offwind_pin.structure.chain import NDArrayInt
+from offwind_pin.structure.section import lump
+
+STATE_ENERGIES = ("kinetic", "gravitational", "elastic", "root")
+"""First columns of the stored energies; one for each load follows."""
+
+JOINT_DAMPERS, ROOT = 0, 1
+"""First columns of the energies dissipated; one for each load follows."""
+
+GROUND = 0
+"""First column of the energies worked, by a moving ground; a void one and the loads' follow."""
+
+
+class Cuts(NamedTuple):
+    """Cuts of the chain at fixed heights: m cuts, each through one body.
+
+    The piece between a cut and the upper end of its body is one round rigid body more.
+    """
+
+    height: Array  # (m,) in m
+    body: NDArrayInt  # (m,) that is cut
+    offset: Array  # (m,) of the cut along it in m
+    end: Array  # (m,) height at which that body ends in m, beyond everything for the last one
+    piece: Array  # (m, 4) mass, centre along the body, transverse and axial inertia
+    first: NDArrayInt  # (m + 1,) where the points above each cut begin in the next array
+    point: NDArrayInt  # loaded points of a cut's own body that lie above it
+
+
+class Segments(NamedTuple):
+    """Parts of the chain between two of its cuts each: g segments.
+
+    Each is a list of round pieces, one for each body that it has part in, and of loaded points.
+    """
+
+    cut: NDArrayInt  # (g, 2) lower and upper cut
+    first_piece: NDArrayInt  # (g + 1,) where each segment's pieces begin in the next two arrays
+    body: NDArrayInt  # body that a piece moves with
+    piece: Array  # mass, centre along the body, transverse and axial inertia
+    first_point: NDArrayInt  # (g + 1,) where each segment's points begin in the next array
+    point: NDArrayInt  # loaded points above the lower and not above the upper cut
+
+
+class SoilNodes(NamedTuple):
+    """Heights at which soil acts: n of them, each with one loaded point or more."""
+
+    height: Array  # (n,) in m, rising
+    point: NDArrayInt  # (S,) loaded points of the soil
+    node: NDArrayInt  # (S,) height that each belongs to
+
+
+class RecorderArrays(NamedTuple):
+    """Room for T records at m cuts and g segments under L loads, and sums that go on."""
+
+    cuts: Cuts
+    segments: Segments
+    soil: SoilNodes
+    every: int  # steps between records
+    stores: NDArray[np.bool_]  # (L,) whether a load stores energy, and so does no work
+    tally: NDArrayInt  # (2,) steps taken, records made
+    clock: Array  # (1,) time of the last step in s
+    power: Array  # (2, L + 2) power dissipated and worked at the last step in W
+    energy: Array  # (2, L + 2) energy dissipated and worked so far in J
+    time: Array  # (T,) in s
+    displacement: Array  # (T, m, 3) in m
+    acceleration: Array  # (T, m, 3) in m/s2
+    section_load: Array  # (T, m, 6) in N and N m
+    imbalance: Array  # (T, g, 6) of the segments in N and N m
+    soil_force: Array  # (T, n, 3) of the soil on the pile in N
+    slip: Array  # (T, D, 2) of the tuned mass dampers along x and y of their carriers in m
+    stored: Array  # (T, L + 4) energies that the state holds in J, see STATE_ENERGIES
+    dissipated: Array  # (T, L + 2) in J
+    worked: Array  # (T, L + 2) in J; see GROUND
+    iterations: NDArray[np.int32]  # (T,)
+    residual: Array  # (T,) largest entry over the load scale
+
+
+def make_cuts(system: System, s: ChainArrays, height: Array) -> Cuts:
+    """Cuts at heights (m,) in m, from the base to the yaw bearing."""
+    chain = system.chain
+    body = chain.body_at(height)
+    ends = np.append(chain.joint_height, chain.top)[body]
+    above = [
+        np.flatnonzero((s.point_body == k) & _is_above(system, s, z))
+        for k, z in zip(body, height, strict=True)
+    ]
+    return Cuts(
+        height=height,
+        body=body,
+        offset=height - chain.origin[body],
+        end=np.append(chain.joint_height, np.inf)[body],
+        piece=_pieces(system, body, height, ends),
+        first=_beginnings(above),
+        point=np.concatenate([np.zeros(0, dtype=np.intp), *above]),
+    )
+
+
+def make_segments(
+    system: System, s: ChainArrays, cuts: Cuts, ends: Sequence[tuple[float, float]]
+) -> Segments:
+    """Segments between pairs of cut heights in m, the lower first."""
+    chain = system.chain
+    edge = chain.cut
+    bodies, pieces, points = [], [np.zeros((0, 4))], []
+    for low, high in ends:
+        inside = np.flatnonzero((edge[:-1] < high) & (edge[1:] > low))
+        low_ends, high_ends = np.maximum(edge[inside], low), np.minimum(edge[inside + 1], high)
+        bodies.append(inside)
+        # A point mass at the yaw bearing lies above the cut there, as loads there do.
+        pieces.append(_pieces(system, inside, low_ends, high_ends, with_end=False))
+        points.append(np.flatnonzero(_is_above(system, s, low) & ~_is_above(system, s, high)))
+    at = [[int(np.argmin(np.abs(cuts.height - z))) for z in pair] for pair in ends]
+    none = np.zeros(0, dtype=np.intp)
+    return Segments(
+        cut=np.array(at, dtype=np.intp).reshape(-1, 2),
+        first_piece=_beginnings(bodies),
+        body=np.concatenate([none, *bodies]),
+        piece=np.concatenate(pieces),
+        first_point=_beginnings(points),
+        point=np.concatenate([none, *points]),
+    )
+
+
+def make_soil_nodes(loads: Sequence[PointLoad], soil: tuple[PointLoad, ...]) -> SoilNodes:
+    """Nodes of a foundation's soil among all the loads of a system."""
+    first = _beginnings([np.arange(len(load.height)) for load in loads])
+    points = [
+        np.arange(begin, begin + len(load.height))
+        for begin, load in zip(first[:-1], loads, strict=True)
+        if is_soil(load, soil)
+    ]
+    heights = [load.height for load in loads if is_soil(load, soil)]
+    height, node = np.unique(np.concatenate([np.zeros(0), *heights]), return_inverse=True)
+    none = np.zeros(0, dtype=np.intp)
+    return SoilNodes(height, np.concatenate([none, *points]), node.astype(np.intp))
+
+
+def _is_above(system: System, s: ChainArrays, height: float) -> NDArray[np.bool_]:
+    """(P,) whether each loaded point lies above a cut.
+
+    A soil node at the cut belongs below it, whatever the last digit of its height; a load at the
+    yaw bearing acts on the assembly above every cut.
+    """
+    return (s.point_height > height + 1e-9) | (s.point_height == system.chain.top)
+
+
+def _pieces(
+    system: System, body: NDArrayInt, low: Array, high: Array, *, with_end: bool = True
+) -> Array:
+    """(n, 4) mass, centre along the body, transverse and axial inertia of parts of bodies."""
+    rows = []
+    for k, bottom, top in zip(body, low, high, strict=True):
+        piece = lump(system.turbine, bottom, top, with_end=with_end)
+        center = piece.center - system.chain.origin[k]
+        rows.append([piece.mass, center, piece.transverse, piece.axial])
+    return np.array(rows).reshape(-1, 4)
+
+
+def _beginnings(lists: Sequence[NDArrayInt]) -> NDArrayInt:
+    return np.cumsum([0, *map(len, lists)], dtype=np.intp)
+
+
+def make_recorder(
+    s: ChainArrays,
+    cuts: Cuts,
+    segments: Segments,
+    soil: SoilNodes,
+    stores: NDArray[np.bool_],
+    every: int,
+    records: int,
+) -> RecorderArrays:
+    """An empty recorder for a number of records."""
+    m, loads = len(cuts.height), s.loads
+    return RecorderArrays(
+        cuts=cuts,
+        segments=segments,
+        soil=soil,
+        every=every,
+        stores=stores,
+        tally=np.zeros(2, dtype=np.intp),
+        clock=np.zeros(1),
+        power=np.zeros((2, loads + 2)),
+        energy=np.zeros((2, loads + 2)),
+        time=np.zeros(records),
+        displacement=np.zeros((records, m, 3)),
+        acceleration=np.zeros((records, m, 3)),
+        section_load=np.zeros((records, m, 6)),
+        imbalance=np.zeros((records, len(segments.cut), 6)),
+        soil_force=np.zeros((records, len(soil.height), 3)),
+        slip=np.zeros((records, len(s.slider_body), 2)),
+        stored=np.zeros((records, loads + len(STATE_ENERGIES))),
+        dissipated=np.zeros((records, loads + 2)),
+        worked=np.zeros((records, loads + 2)),
+        iterations=np.zeros(records, dtype=np.int32),
+        residual=np.zeros(records),
+    )

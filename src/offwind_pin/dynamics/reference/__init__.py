@@ -1,0 +1,1 @@
+"""The same equations by Pinocchio."""

@@ -1,0 +1,231 @@
+"""The equations of motion by Pinocchio: residual, mass matrix and tangents, all exact and dense.
+
+    r(t, q, v, a) = rnea(q, v, a) + K q + D v + R(q, v) - Q(t, q, v, a)
+
+with the joint springs and dampers K, D, the root's restraint R, and the generalised force Q of all
+point loads, the added mass's inertia included. Pinocchio gives the rigid bodies and their
+derivatives; everything else acts through the chain's axis.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pinocchio as pin
+
+from offwind_pin.base.definition import Array
+from offwind_pin.dynamics.acting_loads import all_loads, grounding, smooth_ramp, split_memory
+from offwind_pin.dynamics.base_excitation import BASE
+from offwind_pin.dynamics.reference.chain_kinematics import AxisPoints, ChainMotion
+from offwind_pin.dynamics.system import System
+from offwind_pin.loads.earthquake.ground_motion import GroundMotion
+from offwind_pin.loads.point_load import (
+    MOMENT_BY_POSITION,
+    MOMENT_BY_SPIN,
+    MOMENT_BY_TURN,
+    KernelLoad,
+    PointForces,
+    PointLoad,
+    PointMotion,
+    as_argument,
+)
+from offwind_pin.loads.root_restraint import as_kernel_restraint
+
+
+@dataclass(frozen=True, eq=False)
+class Evaluation:
+    """One evaluation of the chain and its loads.
+
+    motion : of the chain, relative to a base that may move; points, forces : motion of the loaded
+    points, and forces there, the added mass's first
+    """
+
+    motion: ChainMotion
+    points: PointMotion
+    forces: PointForces
+
+
+class Equations:
+    """Residual, mass matrix and tangents of a system under loads.
+
+    Nothing returned points into Pinocchio's scratch data.
+
+    Attributes
+    ----------
+    loads : soil, water and what was given; with water the added mass comes first
+    points : where they act
+    """
+
+    def __init__(
+        self,
+        system: System,
+        loads: Sequence[PointLoad],
+        ramp_time: float,
+        memory: Array | None = None,
+        ground_motion: GroundMotion | None = None,
+    ) -> None:
+        self.system = system
+        self.chain = system.chain
+        self.ramp_time = ramp_time
+        self.loads = all_loads(system, loads)
+        self._model, self._data = system.pin_model, system.scratch.data
+        self._ground_motion = ground_motion
+        self._grounding = grounding(system, self.loads, ground_motion)
+        if ground_motion is not None:
+            self._model = pin.Model(system.pin_model)  # its gravity will change
+        heights = [np.zeros(0), *(load.height for load in self.loads)]
+        self.points = AxisPoints.on(system.chain, np.concatenate(heights))
+        edges = np.cumsum([len(height) for height in heights])
+        self._parts = [slice(int(a), int(b)) for a, b in itertools.pairwise(edges)]
+        self._root = as_kernel_restraint(system.foundation.root)
+        self._memory = split_memory(self.loads, self._root, memory)
+        joints = len(system.chain.node_joints)
+        last = system.chain.roots + joints * np.arange(system.chain.elements + 1)
+        self._last_joint = [int(joint) for joint in last]
+
+    def residual(self, time: float, q: Array, v: Array, a: Array) -> Array:
+        """(nv,) generalised forces out of balance, in N and N m."""
+        state = self.evaluate(time, q, v, a)
+        self._lean(time)
+        balance = pin.rnea(self._model, self._data, q, v, a)
+        balance = balance + self.system.joint_stiffness * q + self.system.joint_damping * v
+        balance -= state.motion.generalised_force(
+            self.points, state.points.position, state.forces.force, state.forces.moment
+        )
+        if self.chain.roots:
+            balance[:6] += self._root.reaction(q[:6], v[:6], self._memory[-1])
+        return balance
+
+    def mass(self, q: Array, time: float | None = None) -> Array:
+        """(nv, nv) mass matrix dr/da with the added mass; in still water unless a time is given."""
+        upper = np.triu(pin.crba(self._model, self._data, q))
+        total = upper + np.triu(upper, 1).T
+        motion = self.chain_motion(q, np.zeros_like(q))
+        points = motion.points(self.points)
+        now = 0.0 if time is None else time
+        rise = 0.0 if time is None else float(smooth_ramp(np.array(time), self.ramp_time))
+        for load, part, past in zip(self.loads, self._parts, self._memory[:-1], strict=True):
+            if isinstance(load, KernelLoad) and not load.inertial:
+                continue
+            seen = points if time is None else self._seen(now, points)
+            tangents = load.tangents(now, seen[part], rise, **as_argument(load, past))
+            moved = motion.derivatives(self.points[part], points[part]).position
+            change = np.einsum("nij,njk->nik", tangents.inertia, moved)
+            total -= np.tensordot(moved, change, axes=([0, 1], [0, 1]))
+        return total
+
+    def tangents(
+        self, time: float, q: Array, v: Array, a: Array | None = None
+    ) -> tuple[Array, Array]:
+        """Stiffness dr/dq and damping dr/dv, both (nv, nv), exact; a is zero unless given."""
+        rate = np.zeros_like(q) if a is None else a
+        by_q, by_v, _ = self._load_tangents(time, q, v, rate)
+        self._lean(time)
+        pin.computeRNEADerivatives(self._model, self._data, q, v, rate)
+        stiffness = by_q + self._data.dtau_dq + np.diag(self.system.joint_stiffness)
+        damping = by_v + self._data.dtau_dv + np.diag(self.system.joint_damping)
+        if self.chain.roots:
+            by_displacement, by_rate = self._root.tangents(q[:6], v[:6], self._memory[-1])
+            stiffness[:6, :6] += by_displacement
+            damping[:6, :6] += by_rate
+        return stiffness, damping
+
+    def acceleration(self, time: float, q: Array, v: Array) -> Array:
+        """(nv,) acceleration that satisfies the equations."""
+        lack = self.residual(time, q, v, np.zeros_like(q))
+        return np.asarray(-np.linalg.solve(self.mass(q, time), lack))
+
+    def evaluate(self, time: float, q: Array, v: Array, a: Array) -> Evaluation:
+        """Motion of the chain and of the loaded points, and every point force.
+
+        In an earthquake motions are those relative to the base; loads are shown what they see.
+        """
+        motion = self.chain_motion(q, v, a)
+        points = motion.points(self.points)
+        seen = self._seen(time, points)
+        force, moment = np.zeros((2, len(self.points.height), 3))
+        rise = float(smooth_ramp(np.array(time), self.ramp_time))
+        for load, part, past in zip(self.loads, self._parts, self._memory[:-1], strict=True):
+            result = load.forces(time, seen[part], rise, **as_argument(load, past))
+            force[part], moment[part] = result.force, result.moment
+        return Evaluation(motion, points, PointForces(force, moment))
+
+    def _ground(self, time: float) -> Array:
+        """(P + 1, 3, 3) ground's displacement, velocity, acceleration at points and base."""
+        if self._ground_motion is None:
+            return self._grounding.at(np.zeros((0, 3, 3)))
+        return self._grounding.at(self._ground_motion.motion(np.array([time]))[0])
+
+    def _lean(self, time: float) -> None:
+        """Let gravity pull as it does seen from a base that accelerates."""
+        if self._ground_motion is not None:
+            own = self.system.pin_model.gravity.linear
+            self._model.gravity.linear = own - self._ground(time)[BASE, 2]
+
+    def _seen(self, time: float, points: PointMotion) -> PointMotion:
+        """Motion as loads see it: absolute, but for the soil relative to the ground there.
+
+        points : relative to the base
+        """
+        if self._ground_motion is None:
+            return points
+        ground = self._ground(time)
+        moved = ground[BASE] - ground[:-1]
+        acceleration = points.acceleration
+        return replace(
+            points,
+            position=points.position + ground[BASE, 0],
+            displacement=points.displacement + moved[:, 0],
+            velocity=points.velocity + moved[:, 1],
+            acceleration=None if acceleration is None else acceleration + ground[BASE, 2],
+        )
+
+    def worst_joint(self, residual: Array) -> tuple[str, float]:
+        """Name and size of the largest entry of a residual."""
+        worst = int(np.argmax(np.where(np.isfinite(residual), np.abs(residual), np.inf)))
+        return self.chain.joint_name[worst], float(abs(residual[worst]))
+
+    def chain_motion(self, q: Array, v: Array, a: Array | None = None) -> ChainMotion:
+        """Motion of the chain's axis."""
+        pin.computeJointJacobiansTimeVariation(self._model, self._data, q, v)
+        rate = np.zeros_like(q) if a is None else a
+        rotation = np.array([self._data.oMi[joint].rotation for joint in self._last_joint])
+        jacobian, its_rate = np.array(self._data.J), np.array(self._data.dJ)
+        return ChainMotion(self.chain, jacobian, its_rate, rotation, q, v, rate)
+
+    def _load_tangents(
+        self, time: float, q: Array, v: Array, a: Array
+    ) -> tuple[Array, Array, Array]:
+        """(nv, nv) derivatives of minus the loads' generalised force by q, v and a."""
+        state = self.evaluate(time, q, v, a)
+        seen = self._seen(time, state.points)
+        rise = float(smooth_ramp(np.array(time), self.ramp_time))
+        by_q, by_v, by_a = np.zeros((3, len(q), len(q)))
+        for load, part, past in zip(self.loads, self._parts, self._memory[:-1], strict=True):
+            tangents = load.tangents(time, seen[part], rise, **as_argument(load, past))
+            how = state.motion.derivatives(self.points[part], state.points[part])
+            change = np.einsum("nij,njk->nik", tangents.stiffness, how.position)
+            change += np.einsum("nij,njk->nik", tangents.damping, how.velocity_by_q)
+            change += np.einsum("nij,njk->nik", tangents.inertia, how.acceleration_by_q)
+            change += np.einsum("nij,njk->nik", tangents.turning, how.axis)
+            by_q -= np.tensordot(how.position, change, axes=([0, 1], [0, 1]))
+            change = np.einsum("nij,njk->nik", tangents.damping, how.position)
+            change += np.einsum("nij,njk->nik", tangents.inertia, how.acceleration_by_v)
+            by_v -= np.tensordot(how.position, change, axes=([0, 1], [0, 1]))
+            change = np.einsum("nij,njk->nik", tangents.inertia, how.position)
+            by_a -= np.tensordot(how.position, change, axes=([0, 1], [0, 1]))
+            blocks = tangents.blocks()
+            if np.any(blocks[:, MOMENT_BY_POSITION:]):
+                change = np.einsum("nij,njk->nik", blocks[:, MOMENT_BY_POSITION], how.position)
+                change += np.einsum("nij,njk->nik", blocks[:, MOMENT_BY_TURN], how.turn)
+                change += np.einsum("nij,njk->nik", blocks[:, MOMENT_BY_SPIN], how.spin_by_q)
+                by_q -= np.tensordot(how.rotation, change, axes=([0, 1], [0, 1]))
+                change = np.einsum("nij,njk->nik", blocks[:, MOMENT_BY_SPIN], how.rotation)
+                by_v -= np.tensordot(how.rotation, change, axes=([0, 1], [0, 1]))
+        by_q -= state.motion.geometric_stiffness(
+            self.points, state.points.position, state.forces.force, state.forces.moment
+        )
+        return by_q, by_v, by_a

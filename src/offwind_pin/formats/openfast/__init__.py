@@ -1,0 +1,1 @@
+"""OpenFAST's files."""

@@ -1,0 +1,23 @@
+"""A system as a folder that other programs read: URDF, meshes, sidecar."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from offwind_pin.base.whole_files import whole_file, write_json, write_text
+from offwind_pin.dynamics.system import System
+from offwind_pin.structure.urdf import write_meshes, write_sidecar, write_urdf
+
+
+def export_urdf(system: System, out: Path) -> list[Path]:
+    """Write ``NAME.urdf``, ``NAME.json`` and ``meshes/`` into a folder; returns the first two."""
+    turbine, chain = system.turbine, system.chain
+    for name, content in write_meshes(turbine, chain).items():
+        with whole_file(out / "meshes" / name) as temporary:
+            temporary.write_bytes(content)
+    urdf, sidecar = out / f"{turbine.name}.urdf", out / f"{turbine.name}.json"
+    write_text(urdf, write_urdf(turbine, chain))
+    of_nodes = system.joint_damping[chain.roots : chain.axis_joints]
+    damping = of_nodes.reshape(chain.joint_stiffness.shape)
+    write_json(sidecar, write_sidecar(turbine, chain, damping, system.foundation.describe()))
+    return [urdf, sidecar]

@@ -1,0 +1,1 @@
+"""Ground motion: records and what they do at the base."""

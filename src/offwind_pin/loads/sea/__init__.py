@@ -1,0 +1,1 @@
+"""Sea states, wave kinematics, current, hydrodynamic loads."""

@@ -1,0 +1,149 @@
+"""Water that moves with the structure: as added mass around it, or contained in it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from offwind_pin.base.definition import Array
+from offwind_pin.base.kernels import kernel
+from offwind_pin.loads.point_load import KernelLoad, energy_kernel, force_kernel, tangent_kernel
+from offwind_pin.loads.sea.forces.strips import Strips, Water, wet_share
+
+
+@kernel
+def along(a: Array, b: Array) -> float:
+    """Scalar product of two vectors in space."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+@kernel
+def _resist(motion: Array, mass: float, force: Array) -> None:
+    """Set the force of a mass that an acceleration across the axis moves, at one point."""
+    axis, acceleration = motion[9:12], motion[12:15]
+    slide = along(axis, acceleration)
+    for j in range(3):
+        force[j] = -mass * (acceleration[j] - slide * axis[j])
+        force[3 + j] = 0.0
+
+
+@kernel
+def _resist_tangents(motion: Array, mass: float, blocks: Array) -> None:
+    """Set its derivatives by acceleration and axis."""
+    axis, acceleration = motion[9:12], motion[12:15]
+    slide = along(axis, acceleration)
+    for j in range(3):
+        for k in range(3):
+            blocks[2, j, k] = mass * axis[j] * axis[k]
+            blocks[3, j, k] = mass * axis[j] * acceleration[k]
+        blocks[2, j, j] -= mass
+        blocks[3, j, j] += mass * slide
+
+
+@force_kernel
+def _added_mass_forces(
+    motion: Array, constants: Array, row: Array, memory: Array, force: Array
+) -> float:
+    for i in range(len(motion)):
+        _resist(motion[i], constants[i, 0], force[i])
+    return 0.0
+
+
+@tangent_kernel
+def _added_mass_tangents(
+    motion: Array, constants: Array, row: Array, memory: Array, blocks: Array
+) -> None:
+    for i in range(len(motion)):
+        _resist_tangents(motion[i], constants[i, 0], blocks[i])
+
+
+@energy_kernel
+def _added_mass_energy(motion: Array, constants: Array, memory: Array) -> float:
+    energy = 0.0
+    for i in range(len(motion)):
+        axis, velocity = motion[i, 9:12], motion[i, 6:9]
+        square = along(velocity, velocity) - along(velocity, axis) ** 2
+        energy += constants[i, 0] * square / 2
+    return energy
+
+
+@dataclass(frozen=True, eq=False)
+class AddedMass(KernelLoad):
+    """Mass per strip of the water that moves with the structure, rho Ca pi D^2/4 l, in kg.
+
+    It acts normal to the axis and belongs to the mass matrix: its force is in the equations with
+    the accelerations, and what it stores is kinetic energy.
+    """
+
+    height: Array
+    mass: Array
+    name: str = "added_mass"
+
+    inertial = True
+    force_kernel = _added_mass_forces
+    tangent_kernel = _added_mass_tangents
+    energy_kernel = _added_mass_energy
+
+    @staticmethod
+    def of(
+        strips: Strips, density: float, coefficient: float | Array, name: str = "added_mass"
+    ) -> AddedMass:
+        """That of strips that are always wet; the coefficient is one number or one a strip."""
+        return AddedMass(strips.height, density * coefficient * strips.volume, name)
+
+    @cached_property
+    def constants(self) -> Array:
+        return self.mass[:, None].copy()
+
+
+@force_kernel
+def _splash_forces(
+    motion: Array, constants: Array, row: Array, memory: Array, force: Array
+) -> float:
+    for i in range(len(motion)):
+        share = wet_share(row[0], constants[i, 1], constants[i, 2])
+        _resist(motion[i], share * constants[i, 0], force[i])
+    return 0.0
+
+
+@tangent_kernel
+def _splash_tangents(
+    motion: Array, constants: Array, row: Array, memory: Array, blocks: Array
+) -> None:
+    for i in range(len(motion)):
+        share = wet_share(row[0], constants[i, 1], constants[i, 2])
+        _resist_tangents(motion[i], share * constants[i, 0], blocks[i])
+
+
+@dataclass(frozen=True, eq=False)
+class SplashAddedMass(KernelLoad):
+    """Added mass of strips that the surface wets and leaves: mass (n,) in kg times the wet share.
+
+    The force is that mass times the acceleration across the axis, as of the moment. The momentum
+    that a strip takes up as it is wetted, the rate of change of the mass times the velocity
+    (slamming), is left out. As the mass changes it stores no energy that would be a function of
+    the state; its power is counted as work.
+    """
+
+    strips: Strips
+    mass: Array
+    water: Water
+    name: str = "splash_added_mass"
+
+    inertial = True
+    force_kernel = _splash_forces
+    tangent_kernel = _splash_tangents
+
+    @property
+    def height(self) -> Array:
+        return self.strips.height
+
+    @cached_property
+    def constants(self) -> Array:
+        return np.column_stack([self.mass, self.strips.ends])
+
+    def rows(self, time: Array, rise: Array) -> Array:
+        """(t, 1) height of the surface in m."""
+        return self.water.surface(time, rise)[:, None]

@@ -1,0 +1,110 @@
+"""Hydrostatic pressure on the walls of a member in water, or with water in it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from offwind_pin.base.definition import Array
+from offwind_pin.loads.point_load import KernelLoad, force_kernel, tangent_kernel
+from offwind_pin.loads.sea.forces.strips import Strips, Water, wet_share
+
+_LIFT, _BOTTOM, _LENGTH, _STILL, _CAP = range(5)
+"""Columns of a point's constants: rho g V in N, the strip's ends in m and its wet share in still
+water; of the end of the wetted part p A in N."""
+
+
+@force_kernel
+def _pressure_forces(
+    motion: Array, constants: Array, row: Array, memory: Array, force: Array
+) -> float:
+    for i in range(len(motion)):
+        axis, still = motion[i, 9:12], constants[i, _STILL]
+        share = wet_share(row[0], constants[i, _BOTTOM], constants[i, _LENGTH])
+        across = constants[i, _LIFT] * (share - still)
+        for j in range(3):
+            force[i, j] = -(across * axis[2] + constants[i, _CAP]) * axis[j]
+            force[i, 3 + j] = 0.0
+        force[i, 2] += constants[i, _LIFT] * still + across
+    return 0.0
+
+
+@tangent_kernel
+def _pressure_tangents(
+    motion: Array, constants: Array, row: Array, memory: Array, blocks: Array
+) -> None:
+    for i in range(len(motion)):
+        axis = motion[i, 9:12]
+        share = wet_share(row[0], constants[i, _BOTTOM], constants[i, _LENGTH])
+        across = constants[i, _LIFT] * (share - constants[i, _STILL])
+        for j in range(3):
+            blocks[i, 3, j, 2] -= across * axis[j]
+            blocks[i, 3, j, j] -= across * axis[2] + constants[i, _CAP]
+
+
+@dataclass(frozen=True, eq=False)
+class Buoyancy(KernelLoad):
+    """Hydrostatic pressure on the wetted sides of a member, from its lower end to the surface.
+
+    With the area A, the axis e and the pressure p = rho g (level - z) the sides of a bent and
+    tapered member take, per length, rho g A z_hat + d(p A e)/ds: Archimedes' force less that on the
+    two ends of a piece that are not wet. Summed up, it is rho g V z_hat on every strip and -p A e
+    at the lower end. The term in between, d(p A e)/ds, does no work in the motion of a
+    chain whose axis keeps its length, so that nothing is lost by leaving it to the ends: it holds
+    the pressure of a bend's outer side beside that of its inner side, and that on the annulus where
+    the diameter jumps. What it changes is what a section's axial force means: that of the wall plus
+    p A (the effective one).
+
+    Above still water a strip that a wave wets takes the part normal to its axis,
+    rho g V (z_hat - (z_hat.e) e) times its wet share, and below it a strip that falls dry loses
+    that part. Strips and pressures are those of the undeformed heights, all alike, so that a pile
+    that settles is not pressed down by its lower end alone. A top under water is closed: it bears
+    the pressure itself. Left out are the moment of sections that are not level (rho g pi D^4/64
+    times the tilt at the lower end, and times its change above) and, along the axis, the pressure
+    of waves on tapers and annuli.
+
+    It is not exactly conservative, as the ends' force follows the axis; its power is counted as
+    work.
+
+    Attributes
+    ----------
+    strips : of the wetted part; the last point is its lower end
+    weight : specific weight rho g in N/m3; negative for water inside, which presses outwards
+    end_area : in m2 of the lower end
+    level : of still water in m
+    water : whose surface wets and leaves strips; None where they stay wet
+    """
+
+    strips: Strips
+    weight: float
+    end_area: float
+    level: float
+    water: Water | None = None
+    name: str = "buoyancy"
+
+    force_kernel = _pressure_forces
+    tangent_kernel = _pressure_tangents
+
+    @cached_property
+    def height(self) -> Array:
+        """(n + 1,) centres of the strips, and the lower end of the lowest."""
+        end = self.strips.height[0] - self.strips.length[0] / 2
+        return np.append(self.strips.height, end)
+
+    @cached_property
+    def constants(self) -> Array:
+        result = np.zeros((len(self.height), 5))
+        result[:-1, _LIFT] = self.weight * self.strips.volume
+        result[:-1, [_BOTTOM, _LENGTH]] = self.strips.ends
+        result[:-1, _STILL] = [wet_share(self.level, *end) for end in self.strips.ends]
+        result[-1, [_BOTTOM, _LENGTH]] = -np.inf, 1.0
+        result[-1, _CAP] = self.weight * self.end_area * (self.level - self.height[-1])
+        return result
+
+    def rows(self, time: Array, rise: Array) -> Array:
+        """(t, 1) height of the surface in m."""
+        if self.water is None:
+            return np.full((len(time), 1), self.level)
+        return self.water.surface(time, rise)[:, None]

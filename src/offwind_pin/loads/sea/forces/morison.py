@@ -1,0 +1,119 @@
+"""Relative Morison forces on strips of a cylinder, normal to its deflected axis."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from offwind_pin.base.definition import Array
+from offwind_pin.loads.point_load import KernelLoad, force_kernel, tangent_kernel
+from offwind_pin.loads.sea.forces.added_mass import along
+from offwind_pin.loads.sea.forces.strips import Strips, Water, wet_share
+
+_INERTIA, _DRAG, _BOTTOM, _LENGTH = range(4)
+"""Columns of a strip's constants: rho (1 + Ca) V in kg, rho/2 Cd D l in kg/m, its ends in m."""
+
+
+@force_kernel
+def morison_forces(
+    motion: Array, constants: Array, row: Array, memory: Array, force: Array
+) -> float:
+    """Of strips in a fluid: water or, with nothing but drag, wind.
+
+    row (1 + 6 n) is the surface in m, velocity (n, 3) in m/s and acceleration (n, 3) in m/s2.
+    """
+    n = len(motion)
+    fluid = row[1:].reshape(2, n, 3)
+    relative, accelerated = np.empty(3), np.empty(3)
+    lost = 0.0
+    for i in range(n):
+        axis = motion[i, 9:12]
+        for j in range(3):
+            relative[j] = fluid[0, i, j] - motion[i, 6 + j]
+            accelerated[j] = fluid[1, i, j]
+        slip, slide = along(relative, axis), along(accelerated, axis)
+        for j in range(3):
+            relative[j] -= slip * axis[j]
+            accelerated[j] -= slide * axis[j]
+        speed = np.sqrt(along(relative, relative))
+        share = wet_share(row[0], constants[i, _BOTTOM], constants[i, _LENGTH])
+        inertia, braking = share * constants[i, _INERTIA], share * constants[i, _DRAG]
+        for j in range(3):
+            drag = braking * speed * relative[j]
+            force[i, j] = inertia * accelerated[j] + drag
+            force[i, 3 + j] = 0.0
+        lost += braking * speed**3
+    return lost
+
+
+@tangent_kernel
+def morison_tangents(
+    motion: Array, constants: Array, row: Array, memory: Array, blocks: Array
+) -> None:
+    """d(|w| w)/dw = |w| I + w w' / |w|, and w = P (u_w - v) with P = I - e e' of the axis e."""
+    n = len(motion)
+    fluid = row[1:].reshape(2, n, 3)
+    slip, w = np.empty(3), np.empty(3)
+    by_w, projector = np.empty((3, 3)), np.empty((3, 3))
+    for i in range(n):
+        axis = motion[i, 9:12]
+        share = wet_share(row[0], constants[i, _BOTTOM], constants[i, _LENGTH])
+        inertia, braking = share * constants[i, _INERTIA], share * constants[i, _DRAG]
+        for j in range(3):
+            slip[j] = fluid[0, i, j] - motion[i, 6 + j]
+        slide = along(slip, axis)
+        pushed = along(fluid[1, i], axis)
+        for j in range(3):
+            w[j] = slip[j] - slide * axis[j]
+            for k in range(3):
+                projector[j, k] = (1.0 if j == k else 0.0) - axis[j] * axis[k]
+        speed = np.sqrt(along(w, w))
+        for j in range(3):
+            for k in range(3):
+                outer = w[j] * w[k] / speed if speed > 0 else 0.0
+                by_w[j, k] = braking * (outer + (speed if j == k else 0.0))
+        for j in range(3):
+            for k in range(3):
+                for m in range(3):
+                    turned = axis[m] * slip[k] + (slide if m == k else 0.0)
+                    blocks[i, 1, j, k] -= by_w[j, m] * projector[m, k]
+                    blocks[i, 3, j, k] -= by_w[j, m] * turned
+                turned = axis[j] * fluid[1, i, k] + (pushed if j == k else 0.0)
+                blocks[i, 3, j, k] -= inertia * turned
+
+
+@dataclass(frozen=True, eq=False)
+class MorisonForce(KernelLoad):
+    """Fluid inertia and drag of a wave on strips; the added mass stands in the mass matrix.
+
+    F = rho (1 + Ca) V a_w + rho/2 Cd D l |w| w per strip, with w the relative velocity and a_w the
+    water's acceleration, both taken normal to the axis (Rahman et al., MECC 2025, Eq. 8). Both
+    parts are those of the wet share of a strip. A coefficient is one number or one a strip.
+    """
+
+    strips: Strips
+    water: Water
+    density: float
+    added_mass_coefficient: float | Array
+    drag_coefficient: float | Array
+    name: str = "waves"
+
+    force_kernel = morison_forces
+    tangent_kernel = morison_tangents
+
+    @property
+    def height(self) -> Array:
+        return self.strips.height
+
+    @cached_property
+    def constants(self) -> Array:
+        inertia = self.density * (1 + self.added_mass_coefficient) * self.strips.volume
+        area = self.strips.diameter * self.strips.length
+        drag = 0.5 * self.density * self.drag_coefficient * area
+        return np.column_stack([inertia, drag, self.strips.ends])
+
+    def rows(self, time: Array, rise: Array) -> Array:
+        """(t, 1 + 6 n) surface, and velocity and acceleration of the water at the strips."""
+        return self.water.rows(time, rise)

@@ -1,0 +1,1 @@
+"""Wave theories and irregular waves."""

@@ -1,0 +1,303 @@
+"""One-sided variance spectra of the surface elevation in m2/Hz."""
+
+from __future__ import annotations
+
+import hashlib
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+
+from offwind_pin.base.definition import Array
+from offwind_pin.base.errors import InputError
+from offwind_pin.base.number_tables import read_numbers
+from offwind_pin.loads.sea.waves.dispersion import wave_number
+
+PeakShape = float | Literal["iec"]
+
+LOWEST_SHARE, HIGHEST_SHARE = 0.4, 5.0
+"""Of the peak frequency, between which components are made: they hold 99.8 % of the variance, and
+shorter waves are lost on a cylinder many times their length."""
+
+_GAP = 5.0
+"""A step of a table this many times one beside it is a gap."""
+_EDGE = 1e-12
+"""Relative; keeps a component that lies on the end of a band in spite of rounding."""
+
+
+class WaveSpectrum(ABC):
+    """How the variance of the surface is spread over frequency.
+
+    Attributes
+    ----------
+    significant_height : in m, four times the root of its area
+    band : lowest and highest frequency in Hz of the components made of it
+    peak_period : in s, or None where there is no peak
+    """
+
+    significant_height: float
+    peak_period: float | None
+
+    @property
+    @abstractmethod
+    def band(self) -> tuple[float, float]:
+        """Lowest and highest frequency in Hz of the components made of it."""
+
+    @abstractmethod
+    def density(self, frequency: Array, depth: float, gravity: float) -> Array:
+        """(m,) in m2/Hz at frequencies (m,) in Hz in the band.
+
+        depth in m and gravity in m/s2 are those of the site, on which some spectra depend.
+        """
+
+    @property
+    @abstractmethod
+    def in_words(self) -> str:
+        """As a reader is told of it."""
+
+
+@dataclass(frozen=True)
+class JonswapSpectrum(WaveSpectrum):
+    """JONSWAP's, with a peak shape of 1 that of Pierson and Moskowitz; see :func:`jonswap`.
+
+    significant_height in m, peak_period in s; peak_shape from 1 to 7, or ``"iec"`` for IEC's rule
+    """
+
+    significant_height: float
+    peak_period: float
+    peak_shape: PeakShape = 1.0
+
+    def __post_init__(self) -> None:
+        for name in ("significant_height", "peak_period"):
+            require_positive(f"waves, field {name}", getattr(self, name))
+        if self.peak_shape != "iec" and not (
+            isinstance(self.peak_shape, int | float) and 1 <= self.peak_shape <= 7
+        ):
+            allowed = "1 to 7, or iec"
+            raise InputError("waves, field peak_shape", self.peak_shape, allowed, "Correct it.")
+
+    @property
+    def shape(self) -> float:
+        """The peak-shape factor as a number."""
+        if self.peak_shape == "iec":
+            return iec_peak_shape(self.significant_height, self.peak_period)
+        return float(self.peak_shape)
+
+    @property
+    def band(self) -> tuple[float, float]:
+        peak = 1 / self.peak_period
+        return LOWEST_SHARE * peak, HIGHEST_SHARE * peak
+
+    def density(self, frequency: Array, depth: float, gravity: float) -> Array:
+        return jonswap(frequency, self.significant_height, self.peak_period, self.shape)
+
+    @property
+    def in_words(self) -> str:
+        kind = "Pierson-Moskowitz" if self.shape == 1 else f"JONSWAP (gamma {self.shape:.3g})"
+        return f"{kind} waves, Hs {self.significant_height:g} m, Tp {self.peak_period:g} s"
+
+
+@dataclass(frozen=True)
+class TmaSpectrum(JonswapSpectrum):
+    """JONSWAP's times Kitaigorodskii's depth factor, at the height given.
+
+    The factor takes variance away. The spectrum is raised again evenly, so that the significant
+    height is the one given, as that of a JONSWAP spectrum is: a state is told by the height
+    measured at the site. The peak period is that of the JONSWAP spectrum; the factor grows with
+    frequency, and the peak comes to lie a little above 1 / Tp.
+    """
+
+    def density(self, frequency: Array, depth: float, gravity: float) -> Array:
+        node, weight = _panels(1 / self.peak_period)
+        whole = super().density(node, depth, gravity)
+        left = np.sum(weight * whole * depth_factor(node, depth, gravity))
+        raised = np.sum(weight * whole) / left
+        parent = super().density(frequency, depth, gravity)
+        return np.asarray(raised * depth_factor(frequency, depth, gravity) * parent)
+
+    @property
+    def in_words(self) -> str:
+        height, period = self.significant_height, self.peak_period
+        return f"TMA waves (gamma {self.shape:.3g}), Hs {height:g} m, Tp {period:g} s"
+
+
+@dataclass(frozen=True)
+class WhiteNoise(WaveSpectrum):
+    """The same density between two frequencies in Hz, none beyond."""
+
+    significant_height: float
+    lowest: float
+    highest: float
+
+    def __post_init__(self) -> None:
+        for name in ("significant_height", "lowest", "highest"):
+            require_positive(f"waves, field {name}", getattr(self, name))
+        if not self.lowest < self.highest:
+            received = f"{self.lowest:g} to {self.highest:g} Hz"
+            allowed = "a lower and a higher frequency"
+            raise InputError("waves, fields lowest and highest", received, allowed, "Exchange.")
+
+    @property
+    def peak_period(self) -> None:  # type: ignore[override]
+        return
+
+    @property
+    def band(self) -> tuple[float, float]:
+        return self.lowest * (1 - _EDGE), self.highest * (1 + _EDGE)
+
+    def density(self, frequency: Array, depth: float, gravity: float) -> Array:
+        level = self.significant_height**2 / 16 / (self.highest - self.lowest)
+        low, high = self.band
+        return np.where((frequency >= low) & (frequency <= high), level, 0.0)
+
+    @property
+    def in_words(self) -> str:
+        height, low, high = self.significant_height, self.lowest, self.highest
+        return f"white noise from {low:g} to {high:g} Hz, Hs {height:g} m"
+
+
+@dataclass(frozen=True, repr=False)
+class TableSpectrum(WaveSpectrum):
+    """A user's own densities in m2/Hz at frequencies in Hz, linear in between, nothing beyond.
+
+    It is taken as it is: its area is the variance.
+    """
+
+    frequency: tuple[float, ...]
+    ordinate: tuple[float, ...]
+    where: str = "waves, spectrum"
+
+    def __post_init__(self) -> None:
+        count = f"{len(self.frequency)} frequencies and {len(self.ordinate)} densities"
+        if len(self.frequency) < 3 or len(self.frequency) != len(self.ordinate):
+            allowed = "three frequencies or more, and a density for each"
+            raise InputError(self.where, count, allowed, "Complete the table.")
+        f, s = np.array(self.frequency), np.array(self.ordinate)
+        if not (np.all(np.isfinite(f)) and np.all(np.isfinite(s))):
+            raise InputError(self.where, "NaN or infinity", "finite numbers", "Correct them.")
+        step = np.diff(f)
+        if f[0] <= 0 or np.any(step <= 0):
+            at = f[0] if f[0] <= 0 else f[1:][step <= 0][0]
+            allowed = "frequencies in Hz that are positive and rise strictly"
+            raise InputError(f"{self.where}, frequency", float(at), allowed, "Sort the table.")
+        if np.any(s < 0):
+            i = int(np.argmax(s < 0))
+            where = f"{self.where}, density at {f[i]:g} Hz"
+            raise InputError(where, float(s[i]), "0 m2/Hz or more", "Correct it.")
+        if not np.any(s > 0):
+            raise InputError(self.where, "zeros alone", "some variance", "Or use still water.")
+        gap = (step[1:] > _GAP * step[:-1]) | (step[:-1] > _GAP * step[1:])
+        if np.any(gap):
+            i = int(np.argmax(gap))
+            received = f"steps of {step[i]:g} and {step[i + 1]:g} Hz at {f[i + 1]:g} Hz"
+            allowed = f"steps that change by less than {_GAP:g} times from one to the next"
+            remedy = "Are rows missing? Fill the gap, with zeros where there are no waves."
+            raise InputError(f"{self.where}, frequency", received, allowed, remedy)
+
+    def __repr__(self) -> str:
+        """Short, and still telling one table from another."""
+        content = hashlib.sha256(np.array([self.frequency, self.ordinate]).tobytes()).hexdigest()
+        return f"TableSpectrum({len(self.frequency)} rows, SHA-256 {content})"
+
+    @staticmethod
+    def read(path: Path) -> TableSpectrum:
+        """From a CSV file with the header ``frequency_hz,density_m2_per_hz``.
+
+        Raises
+        ------
+        InputError : a file, or a table, that cannot be used
+        """
+        rows = [row for _, row in read_numbers(path, ("frequency_hz", "density_m2_per_hz"))]
+        frequency, ordinate = zip(*rows, strict=True)
+        return TableSpectrum(frequency, ordinate, where=str(path))
+
+    @property
+    def significant_height(self) -> float:  # type: ignore[override]
+        return 4 * float(np.sqrt(np.trapezoid(self.ordinate, self.frequency)))
+
+    @property
+    def band(self) -> tuple[float, float]:
+        return self.frequency[0] * (1 - _EDGE), self.frequency[-1] * (1 + _EDGE)
+
+    @property
+    def peak_period(self) -> float:  # type: ignore[override]
+        return 1 / self.frequency[int(np.argmax(self.ordinate))]
+
+    def density(self, frequency: Array, depth: float, gravity: float) -> Array:
+        low, high = self.band
+        inside = (frequency >= low) & (frequency <= high)
+        return np.where(inside, np.interp(frequency, self.frequency, self.ordinate), 0.0)
+
+    @property
+    def in_words(self) -> str:
+        height, period = self.significant_height, self.peak_period
+        return f"waves of a given spectrum, Hs {height:.3g} m, Tp {period:.3g} s"
+
+
+def pierson_moskowitz(frequency: Array, significant_height: float, peak_period: float) -> Array:
+    """One-sided variance spectrum of the surface elevation in m2/Hz (IEC 61400-3-1, Annex D).
+
+    frequency in Hz (positive), significant height in m, peak period in s; its area is Hs^2 / 16.
+    """
+    ratio = 1 / (frequency * peak_period)
+    return 5 / 16 * significant_height**2 / frequency * ratio**4 * np.exp(-1.25 * ratio**4)
+
+
+def jonswap(
+    frequency: Array, significant_height: float, peak_period: float, peak_shape: float
+) -> Array:
+    """The same with a peak raised by a shape factor gamma from 1 (IEC 61400-3-1, Annex D).
+
+    S = (1 - 0.287 ln gamma) S_PM gamma^exp(-((f Tp - 1) / sigma)^2 / 2), with sigma 0.07 below and
+    0.09 above the peak. The factor in front keeps the area Hs^2 / 16 within 1 % for gamma up to 5,
+    and within 3 % up to 7.
+    """
+    ratio = frequency * peak_period
+    width = np.where(ratio <= 1, 0.07, 0.09)
+    raised = peak_shape ** np.exp(-(((ratio - 1) / width) ** 2) / 2)
+    level = 1 - 0.287 * np.log(peak_shape)
+    return np.asarray(
+        level * raised * pierson_moskowitz(frequency, significant_height, peak_period)
+    )
+
+
+def iec_peak_shape(significant_height: float, peak_period: float) -> float:
+    """Peak-shape factor by steepness, 1 to 5 (IEC 61400-3-1, Annex D).
+
+    5 for Tp / sqrt(Hs) up to 3.6, 1 from 5 on, exp(5.75 - 1.15 Tp / sqrt(Hs)) in between.
+    """
+    ratio = peak_period / np.sqrt(significant_height)
+    if ratio <= 3.6:
+        return 5.0
+    return 1.0 if ratio >= 5 else float(np.exp(5.75 - 1.15 * ratio))
+
+
+def depth_factor(frequency: Array, depth: float, gravity: float) -> Array:
+    """Kitaigorodskii's factor by which a depth in m limits a spectrum, 0 to 1.
+
+    (k^-3 dk/domega) over its value in deep water (Bouws, Guenther, Rosenthal and Vincent, J.
+    Geophys. Res. 90, 1985, 975), which is tanh^2(kh) / (1 + 2 kh / sinh(2 kh)). frequency (m,) in
+    Hz, gravity in m/s2.
+    """
+    kh = wave_number(2 * np.pi * frequency, depth, gravity) * depth
+    decay = np.exp(-2 * kh)
+    ratio = 4 * kh * decay / (1 - decay**2)
+    return np.asarray(np.tanh(kh) ** 2 / (1 + ratio))
+
+
+def require_positive(where: str, value: float) -> None:
+    """Refuse what is no positive number."""
+    if not (np.isfinite(value) and value > 0):
+        raise InputError(where, value, "a positive number", "Correct it.")
+
+
+def _panels(peak: float) -> tuple[Array, Array]:
+    """Gauss's nodes in Hz and weights over all of a spectrum with a peak at a frequency in Hz."""
+    edges = peak * np.array(
+        [0.3, 0.5, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.35, 1.6, 2.0, 3.0, 5.0, 10.0, 30.0, 100.0]
+    )
+    node, weight = np.polynomial.legendre.leggauss(16)
+    half, middle = np.diff(edges)[:, None] / 2, (edges[1:] + edges[:-1])[:, None] / 2
+    return (middle + half * node).ravel(), (half * weight).ravel()

@@ -1,0 +1,82 @@
+"""Short-crested seas: how the directions of waves are spread about their mean."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, get_args
+
+import numpy as np
+from scipy.special import betaincinv, gammaln
+
+from offwind_pin.base.definition import Array
+from offwind_pin.base.errors import InputError
+
+SpreadingKind = Literal["cos_2s", "cos_n"]
+
+LARGEST_EXPONENT = 1000.0
+
+
+@dataclass(frozen=True)
+class Spreading:
+    """A density of directions about the mean one; two conventions of the exponent.
+
+    kind : ``"cos_2s"`` for cos^(2 s)((theta - mean) / 2) over the whole circle, whose exponent is
+        s (Longuet-Higgins, Cartwright and Smith 1963), or ``"cos_n"`` for cos^n(theta - mean)
+        within 90 degrees, whose exponent is n; DNV-RP-C205, 3.5.8, has both
+    exponent : s or n; the larger the narrower
+    """
+
+    kind: SpreadingKind
+    exponent: float
+
+    def __post_init__(self) -> None:
+        if self.kind not in get_args(SpreadingKind):
+            allowed = ", ".join(get_args(SpreadingKind))
+            raise InputError("waves, field spreading.kind", self.kind, allowed, "Choose one.")
+        if not (np.isfinite(self.exponent) and 0 < self.exponent <= LARGEST_EXPONENT):
+            raise InputError(
+                "waves, field spreading.exponent",
+                self.exponent,
+                f"above 0 and at most {LARGEST_EXPONENT:g}",
+                "For long-crested waves leave spreading out.",
+            )
+
+    def density(self, angle: Array) -> Array:
+        """(n,) in 1/rad at angles (n,) in rad from the mean direction, from -pi to pi."""
+        if self.kind == "cos_2s":
+            s = self.exponent
+            level = np.exp(gammaln(s + 1) - gammaln(s + 0.5)) / (2 * np.sqrt(np.pi))
+            return np.asarray(level * np.cos(angle / 2) ** (2 * s))
+        n = self.exponent
+        level = np.exp(gammaln(n / 2 + 1) - gammaln(n / 2 + 0.5)) / np.sqrt(np.pi)
+        return np.asarray(level * np.maximum(np.cos(angle), 0.0) ** n)
+
+    def angles(self, share: Array) -> Array:
+        """(n,) angles in rad from the mean direction, not passed by shares (n,) in 0..1 of all.
+
+        sin^2 of the angle, or of its half, follows a beta distribution.
+        """
+        side = 2 * share - 1
+        if self.kind == "cos_2s":
+            square = betaincinv(0.5, self.exponent + 0.5, np.abs(side))
+            return np.asarray(np.sign(side) * 2 * np.arcsin(np.sqrt(square)))
+        square = betaincinv(0.5, (self.exponent + 1) / 2, np.abs(side))
+        return np.asarray(np.sign(side) * np.arcsin(np.sqrt(square)))
+
+    @property
+    def deviation(self) -> float:
+        """Circular standard deviation sqrt(2 (1 - E cos(theta - mean))) in rad (Kuik et al. 1988).
+
+        sqrt(2 / (1 + s)) for cos^2s.
+        """
+        if self.kind == "cos_2s":
+            return float(np.sqrt(2 / (1 + self.exponent)))
+        n = self.exponent
+        mean_cosine = np.exp(2 * gammaln(n / 2 + 1) - gammaln(n / 2 + 0.5) - gammaln(n / 2 + 1.5))
+        return float(np.sqrt(2 * (1 - mean_cosine)))
+
+    @property
+    def in_words(self) -> str:
+        """As a reader is told of it."""
+        formula = "cos^2s(theta/2), s" if self.kind == "cos_2s" else "cos^n(theta), n"
+        return f"spread by {formula} = {self.exponent:g}"

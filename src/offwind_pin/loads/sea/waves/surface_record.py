@@ -1,0 +1,178 @@
+"""Measured surface elevations, and the harmonics that linear waves replay them with."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from scipy.signal.windows import tukey
+
+from offwind_pin.base.definition import Array, ComplexArray
+from offwind_pin.base.errors import InputError
+from offwind_pin.base.number_tables import read_text, to_numbers
+from offwind_pin.loads.tower_top.load_history import check_times
+
+HIGHEST_SURFACE = 40.0
+"""m; beyond any sea, but what cm, mm and marks of missing values give."""
+
+FEWEST_SAMPLES = 64
+
+_UNEVEN = 0.02
+"""Of a step, by which times rounded in a file may depart from even ones."""
+
+TAPERED = 0.01
+"""Of the record at each end, over which it fades unless another taper is given."""
+
+
+@dataclass(frozen=True)
+class SurfaceRecord:
+    """Elevations (t,) in m at even times from 0 in steps of dt s.
+
+    start : in s, the first time of the samples it was made from
+    resampled : whether they were not even
+    """
+
+    dt: float
+    elevation: Array = field(repr=False, compare=False)
+    origin: str
+    start: float = 0.0
+    resampled: bool = False
+
+    @property
+    def duration(self) -> float:
+        """In s, after which the record repeats: one step after its last sample."""
+        return len(self.elevation) * self.dt
+
+    @staticmethod
+    def of(time: Array, elevation: Array, origin: str) -> SurfaceRecord:
+        """From samples (t,) at times (t,) in s, which are interpolated linearly if not even.
+
+        Raises
+        ------
+        InputError : too few samples, times that do not rise, numbers that are no elevations in m
+        """
+        if len(time) != len(elevation) or len(time) < FEWEST_SAMPLES:
+            received = f"{len(time)} times and {len(elevation)} elevations"
+            allowed = f"{FEWEST_SAMPLES} samples or more"
+            raise InputError(origin, received, allowed, "Is the record complete?")
+        if not (np.all(np.isfinite(time)) and np.all(np.isfinite(elevation))):
+            raise InputError(origin, "NaN or infinity", "finite numbers", "Fill the gaps.")
+        if np.any(np.diff(time) <= 0):
+            raise InputError(origin, "times that fall back", "rising times", "Sort the rows.")
+        worst = float(elevation[np.argmax(np.abs(elevation))])
+        if abs(worst) > HIGHEST_SURFACE:
+            raise InputError(
+                f"{origin}, elevation",
+                worst,
+                f"-{HIGHEST_SURFACE:g} to {HIGHEST_SURFACE:g} m",
+                "Is the unit m? Does a number such as 999.99 mark missing values?",
+            )
+        if np.ptp(elevation) == 0:
+            raise InputError(f"{origin}, elevation", worst, "a surface that moves", "Check it.")
+        count, dt = len(time), float(time[-1] - time[0]) / (len(time) - 1)
+        uneven = np.max(np.abs(time - time[0] - dt * np.arange(count))) > _UNEVEN * dt
+        if uneven:
+            dt = float(np.median(np.diff(time)))
+            even = np.arange(time[0], time[-1] + 1e-9 * dt, dt)
+            elevation = np.interp(even, time, elevation)
+        values = np.array(elevation, dtype=float)
+        return SurfaceRecord(dt, values, origin, float(time[0]), bool(uneven))
+
+    def harmonics(
+        self, low_cut: float, high_cut: float, taper: float | None = None
+    ) -> RecordHarmonics:
+        """What linear waves replay: the record between two frequencies in Hz.
+
+        Mean and linear trend are taken off, the ends fade over a taper in s by a cosine (by default
+        over a hundredth of the record), so that the record may repeat; then all frequencies beyond
+        the cuts are left out.
+        """
+        n, duration = len(self.elevation), self.duration
+        at = np.arange(n) * self.dt
+        slope, start = np.polyfit(at, self.elevation, 1)
+        level = self.elevation - (start + slope * at)
+        fade = TAPERED * duration if taper is None else taper
+        if fade > 0:
+            level = level * tukey(n, min(2 * fade / duration, 1.0))
+        lines = np.fft.rfft(level)[: (n + 1) // 2] * 2 / n
+        order = np.arange(len(lines), dtype=float)
+        kept = (order >= low_cut * duration * (1 - 1e-12)) & (
+            order <= high_cut * duration * (1 + 1e-12)
+        )
+        square = np.abs(lines[1:]) ** 2
+        lost = 1 - np.sum(square[kept[1:]]) / np.sum(square)
+        return RecordHarmonics(
+            order[kept],
+            lines[kept],
+            float(np.mean(self.elevation)),
+            float(slope * duration),
+            float(fade),
+            float(lost),
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class RecordHarmonics:
+    """Of a record's length.
+
+    Attributes
+    ----------
+    harmonic, elevation : (m,) whole numbers, and complex amplitudes in m
+    mean, trend : in m, taken off; the trend over the whole record
+    fade : in s, over which each end was faded
+    left_out : share of the variance beyond the cuts
+    """
+
+    harmonic: Array
+    elevation: ComplexArray
+    mean: float
+    trend: float
+    fade: float
+    left_out: float
+
+
+def read_surface_record(path: Path) -> SurfaceRecord:
+    """Two columns, time in s and elevation in m.
+
+    Columns are separated by blanks, tabs, commas or semicolons; ``#``, ``!`` and ``%`` start a
+    comment, and the first line may name the columns.
+
+    Raises
+    ------
+    InputError : missing, empty or short file; a cell that is no number; times that do not rise, or
+        leave a gap; elevations beyond any sea
+    """
+    text = read_text(path)
+    rows: list[tuple[float, ...]] = []
+    lines: list[int] = []
+    header_allowed = True
+    for line, raw in enumerate(text.splitlines(), 1):
+        data = re.split(r"[#!%]", raw, maxsplit=1)[0].strip()
+        if not data:
+            continue
+        cells = re.split(r"\s*[,;]\s*|\s+", data)
+        named = header_allowed and not any(_is_number(cell) for cell in cells)
+        header_allowed = False
+        if named:
+            continue
+        rows.append(to_numbers(path, line, cells, 2))
+        lines.append(line)
+    if len(rows) < FEWEST_SAMPLES:
+        allowed = f"{FEWEST_SAMPLES} rows or more"
+        raise InputError(str(path), f"{len(rows)} rows", allowed, "Is the file complete?")
+    values = np.array(rows)
+    check_times(path, values[:, 0], lines, "line")
+    digest = hashlib.sha256(text.encode()).hexdigest()
+    origin = f"{path.name} (SHA-256 {digest})"
+    return SurfaceRecord.of(values[:, 0], values[:, 1], origin)
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return True

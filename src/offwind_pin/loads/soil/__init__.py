@@ -1,0 +1,1 @@
+"""Foundations, macro-element, soil profile."""

@@ -1,0 +1,1 @@
+"""Soil reaction curves, one file per family."""

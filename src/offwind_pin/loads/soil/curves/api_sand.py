@@ -1,0 +1,63 @@
+"""p-y curves of sand, API RP 2GEO (2011), section 8.5."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import numpy as np
+
+from offwind_pin.base.definition import Array
+from offwind_pin.definitions.soil.layers import ApiSand
+from offwind_pin.loads.soil.curves.laws import SoilCurves, tanh_curves
+from offwind_pin.loads.soil.soil_profile import Ground
+
+_EARTH_PRESSURE_AT_REST = 0.4
+_LEAST_MODULUS = 5.4e6
+
+
+def api_sand_curves(
+    layer: ApiSand, ground: Ground, stress: Array, loading: Literal["static", "cyclic"]
+) -> SoilCurves:
+    """p = A p_u tanh(k z y / (A p_u)), with z below the actual mudline.
+
+    A = 0.9 for cyclic loading and max(0.9, 3 - 0.8 z / D) for static;
+    p_u = min((C1 z + C2 D) s', C3 D s').
+
+    stress : (n,) vertical effective stress s' in Pa
+    """
+    depth, diameter = ground.depth, ground.diameter
+    c1, c2, c3 = resistance_factors(layer.friction_angle)
+    shallow = (c1 * depth + c2 * diameter) * stress
+    deep = c3 * diameter * stress
+    factor = np.full_like(depth, 0.9)
+    if loading == "static":
+        factor = np.maximum(factor, 3.0 - 0.8 * depth / diameter)
+    modulus = layer.initial_modulus or initial_modulus(layer.friction_angle)
+    return tanh_curves(modulus * depth, factor * np.minimum(shallow, deep))
+
+
+def resistance_factors(friction_angle: float) -> tuple[float, float, float]:
+    """C1, C2 and C3 of the ultimate resistance; friction angle in degrees."""
+    phi = np.radians(friction_angle)
+    alpha, beta = phi / 2, np.pi / 4 + phi / 2
+    at_rest = _EARTH_PRESSURE_AT_REST
+    active = np.tan(np.pi / 4 - phi / 2) ** 2
+    passive = np.tan(beta)
+    wedge = np.tan(beta - phi)
+    c1 = (
+        at_rest * np.tan(phi) * np.sin(beta) / (wedge * np.cos(alpha))
+        + passive**2 * np.tan(alpha) / wedge
+        + at_rest * passive * (np.tan(phi) * np.sin(beta) - np.tan(alpha))
+    )
+    c2 = passive / wedge - active
+    c3 = at_rest * np.tan(phi) * passive**4 + active * (passive**8 - 1)
+    return float(c1), float(c2), float(c3)
+
+
+def initial_modulus(friction_angle: float) -> float:
+    """Rise k of the initial modulus with depth in N/m3, below water; friction angle in degrees.
+
+    A parabola fitted for sand below water, not less than 5.4 MN/m3, API's value at 25 degrees.
+    """
+    phi = friction_angle
+    return max(_LEAST_MODULUS, 1e6 * (0.1978 * phi**2 - 10.232 * phi + 136.82))

@@ -1,0 +1,134 @@
+"""Foundations behind one interface: where the chain starts, what holds its root, which springs act.
+
+Clamped and apparent fixity hold the root of a chain rigidly; coupled springs and a macro-element
+restrain its six joints at the mudline; distributed springs start at the toe, with a restraint there
+and point loads along the pile.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from offwind_pin.base.definition import Array
+from offwind_pin.base.errors import InputError
+from offwind_pin.definitions.turbine import Turbine
+from offwind_pin.loads.point_load import PointLoad
+from offwind_pin.loads.root_restraint import LinearRestraint, RootRestraint
+from offwind_pin.loads.soil.soil_profile import Ground
+from offwind_pin.loads.soil.springs.dashpot import Dashpot
+from offwind_pin.loads.soil.springs.pile import pile_nodes, pile_soil
+from offwind_pin.loads.soil.warnings import cautions
+from offwind_pin.structure.section import outer_diameter
+
+
+@dataclass(frozen=True, eq=False)
+class Foundation:
+    """One way to hold a monopile.
+
+    Attributes
+    ----------
+    name : as in the public interface
+    base : height of the chain's base in m
+    root : restraint of the base's six joints, or None where the base does not move
+    soil : loads along the embedded pile
+    surrogate : why its numbers stand in for others, or None
+    structure : what is held, where that is not the turbine as defined
+    facts : plain data about how it came about
+    cautions : sentences about curves that are used outside their field base
+    """
+
+    name: str
+    base: float
+    root: RootRestraint | None = None
+    soil: tuple[PointLoad, ...] = ()
+    surrogate: str | None = None
+    structure: Turbine | None = None
+    facts: dict[str, object] = field(default_factory=dict)
+    cautions: tuple[str, ...] = ()
+
+    def describe(self) -> dict[str, object]:
+        """Plain data for the sidecar: what holds the root and where the soil acts."""
+        return {
+            "name": self.name,
+            "base_z_m": self.base,
+            "root": None if self.root is None else self.root.describe(),
+            "soil_nodes_z_m": [height for load in self.soil for height in load.height.tolist()],
+            **self.facts,
+            "surrogate": self.surrogate,
+        }
+
+
+def clamped(turbine: Turbine) -> Foundation:
+    """Rigidly held at the mudline; nothing below exists."""
+    return Foundation("clamped", turbine.site.mudline)
+
+
+def coupled_springs(turbine: Turbine) -> Foundation:
+    """A 6x6 stiffness at the mudline stands for pile and soil."""
+    stiffness = given_stiffness(turbine)
+    return Foundation(
+        "coupled_springs", turbine.site.mudline, LinearRestraint(stiffness, np.zeros((6, 6)))
+    )
+
+
+def given_stiffness(turbine: Turbine) -> Array:
+    """(6, 6) of the turbine's coupled springs.
+
+    Raises
+    ------
+    InputError : none are given, or the mudline is no longer where they belong to
+    """
+    springs = turbine.soil.coupled_springs
+    if springs is None:
+        raise missing(turbine, "coupled_springs")
+    if turbine.site.scour_depth != 0:
+        raise InputError(
+            f"turbine {turbine.name}, field site.scour_depth_m",
+            turbine.site.scour_depth,
+            "0 with soil.coupled_springs, whose 6x6 belongs to the original mudline",
+            "Condense the distributed springs of the scoured pile, or use them.",
+        )
+    return np.array(springs.stiffness)
+
+
+def distributed_springs(turbine: Turbine) -> Foundation:
+    """The pile to its toe, with the soil's springs along it and linear ones at its toe."""
+    springs = turbine.soil.distributed_springs
+    if springs is None:
+        raise missing(turbine, "distributed_springs")
+    mudline, toe = turbine.site.mudline, turbine.toe
+    if toe >= mudline:
+        raise InputError(
+            f"turbine {turbine.name}, field members",
+            f"a lowest station at z_m = {toe}",
+            f"a pile that reaches below the mudline (z = {mudline} m)",
+            "Add a station at the toe, or use another foundation.",
+        )
+    height, length = pile_nodes(springs.nodes, mudline, toe)
+    ground = Ground(
+        mudline - height, outer_diameter(turbine, height), mudline - toe, turbine.site.scour_depth
+    )
+    stiffness = np.diag(
+        [0, 0, springs.toe_vertical_stiffness, 0, 0, springs.toe_torsional_stiffness]
+    ).astype(float)
+    dashpot = Dashpot.of(springs.dashpot)
+    return Foundation(
+        "distributed_springs",
+        toe,
+        LinearRestraint(stiffness, (dashpot.initial_time + dashpot.secant_time[0]) * stiffness),
+        pile_soil(springs, ground, height, length),
+        springs.surrogate,
+        cautions=tuple(cautions(springs, ground)),
+    )
+
+
+def missing(turbine: Turbine, field: str) -> InputError:
+    """A block of the turbine's soil that a foundation needs."""
+    return InputError(
+        f"turbine {turbine.name}, field soil.{field}",
+        "nothing",
+        "the numbers of this foundation",
+        "Add them to the turbine file, or choose another foundation.",
+    )

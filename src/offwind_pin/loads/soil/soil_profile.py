@@ -1,0 +1,73 @@
+"""Where a pile stands in the ground, and what the layers are around it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from offwind_pin.base.definition import Array
+from offwind_pin.definitions.soil.layers import Layer
+from offwind_pin.loads.soil.curves.laws import ON_BOUNDARY, Places
+
+
+@dataclass(frozen=True, eq=False)
+class Ground:
+    """Nodes of a pile below the mudline.
+
+    Attributes
+    ----------
+    depth : (n,) depth below the actual mudline in m
+    diameter : (n,) outer diameter of the pile in m
+    length : embedded length of the pile in m, from the actual mudline to the toe
+    scour : how far the actual mudline lies below the original one in m; negative for deposition
+    """
+
+    depth: Array
+    diameter: Array
+    length: float
+    scour: float = 0.0
+
+    @property
+    def original_depth(self) -> Array:
+        """Depth below the original mudline in m, (n,); negative in deposited soil."""
+        return self.depth + self.scour
+
+    def at(self, places: Places) -> Ground:
+        """Those nodes only; places are indices or a mask."""
+        return Ground(self.depth[places], self.diameter[places], self.length, self.scour)
+
+    @property
+    def toe(self) -> Ground:
+        """One node at the toe, with the diameter of the deepest node."""
+        diameter = self.diameter[[int(np.argmax(self.depth))]]
+        return Ground(np.array([self.length]), diameter, self.length, self.scour)
+
+
+def layer_index(layers: tuple[Layer, ...], ground: Ground) -> NDArray[np.intp]:
+    """Number of the layer that each node lies in, (n,).
+
+    Exactly on a boundary it is the layer below; deposited soil is that of the top layer.
+    """
+    tops = [layer.top for layer in layers]
+    found = np.searchsorted(tops, ground.original_depth + ON_BOUNDARY, side="right") - 1
+    return np.maximum(found, 0)
+
+
+def effective_stress(layers: tuple[Layer, ...], ground: Ground) -> Array:
+    """Vertical effective stress at the nodes in Pa, (n,), from the actual mudline down.
+
+    General scour: what is above the actual mudline no longer weighs.
+    """
+
+    def weight_above(depth: Array) -> Array:
+        total = layers[0].submerged_unit_weight * np.minimum(depth, 0.0)
+        bottoms = [*(layer.top for layer in layers[1:]), np.inf]
+        for layer, bottom in zip(layers, bottoms, strict=True):
+            thickness = np.clip(depth, layer.top, bottom) - layer.top
+            total = total + layer.submerged_unit_weight * thickness
+        return total
+
+    stress = weight_above(ground.original_depth) - weight_above(np.array(ground.scour))
+    return np.where(ground.depth > 0, stress, 0.0)

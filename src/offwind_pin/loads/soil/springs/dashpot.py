@@ -1,0 +1,70 @@
+"""Dashpots beside soil springs: coefficient over stiffness, C_s = K_s beta_s / (pi f_load)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from offwind_pin.base.definition import Array
+from offwind_pin.base.kernels import kernel
+from offwind_pin.definitions.soil.springs import DampingCurve, SoilDashpot
+
+
+@kernel
+def ratio_at(numbers: Array, y: float) -> tuple[float, float]:
+    """Coefficient over secant stiffness in s at a deflection y >= 0, and its derivative by y.
+
+    numbers : :attr:`Dashpot.numbers`; linear in log y between the points
+    """
+    count = int(numbers[0])
+    if count == 1 or y <= numbers[1]:
+        return numbers[1 + count], 0.0
+    if y >= numbers[count]:
+        return numbers[2 * count], 0.0
+    k = 1
+    while y > numbers[1 + k]:
+        k += 1
+    low, high = numbers[count + k], numbers[count + k + 1]
+    slope = (high - low) / np.log(numbers[1 + k] / numbers[k])
+    return low + slope * np.log(y / numbers[k]), slope / y
+
+
+@dataclass(frozen=True, eq=False)
+class Dashpot:
+    """What makes dashpots of springs.
+
+    Attributes
+    ----------
+    deflection : (b,) rising, in m (or rad), for the ratios
+    secant_time : (b,) beta_s / (pi f_load) in s there, times the secant stiffness
+    initial_time : the same for all deflections, times the initial stiffness
+    """
+
+    deflection: Array
+    secant_time: Array
+    initial_time: float = 0.0
+
+    @property
+    def numbers(self) -> Array:
+        """(1 + 2 b,) for the constants of a load."""
+        return np.concatenate([[len(self.deflection)], self.deflection, self.secant_time])
+
+    @staticmethod
+    def of(definition: SoilDashpot | None) -> Dashpot:
+        """The dashpot of a definition, or none."""
+        if definition is None:
+            return NO_DASHPOT
+        unit, factor = 1 / (np.pi * definition.load_frequency), definition.damping_factor
+        if isinstance(factor, DampingCurve):
+            return Dashpot(np.array(factor.displacement), unit * np.array(factor.factor))
+        if definition.stiffness == "initial":
+            return Dashpot(np.zeros(1), np.zeros(1), unit * factor)
+        return Dashpot(np.zeros(1), np.array([unit * factor]))
+
+    def of_rotations(self, radius: float) -> Dashpot:
+        """The dashpot of rotational springs: that of the displacement at a radius in m."""
+        return replace(self, deflection=self.deflection / radius)
+
+
+NO_DASHPOT = Dashpot(np.zeros(1), np.zeros(1))

@@ -1,0 +1,209 @@
+"""Hysteretic soil springs: parallel elastic-plastic sliders, after Iwan (1966).
+
+A slider is a spring that yields in the direction of its pull, once stretched by its yield
+deflection. Sliders in parallel follow the backbone on first loading and Masing's rule on unloading;
+what they dissipate depends on the path and not on its rate.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from offwind_pin.base.definition import Array
+from offwind_pin.base.errors import InputError
+from offwind_pin.base.kernels import kernel
+from offwind_pin.loads.point_load import (
+    commit_kernel,
+    energy_kernel,
+    force_kernel,
+    tangent_kernel,
+)
+from offwind_pin.loads.soil.curves.laws import SoilCurves
+from offwind_pin.loads.soil.springs.elastic import SoilSprings
+
+_DASHPOT, _SLIDERS = 7, 8
+"""Columns of a node's constants after its direction: constant dashpot coefficient, and number of
+sliders; their stiffnesses and then their yield deflections follow."""
+
+_ROUNDING = 1e-10
+"""Relative excess of a squared yield deflection below which a slider has not yielded."""
+_FIRST_SHARE, _LAST_SHARE = 0.02, 0.999
+"""Shares of the ultimate resistance at which the first and the last slider yield."""
+_SEARCHED = np.geomspace(1e-9, 10.0, 2001)
+"""Deflections in m or rad among which those two are found."""
+
+
+@kernel
+def _stretch(
+    values: Array, u: int, components: int, memory: Array, first: int
+) -> tuple[float, float, float]:
+    """Stretch of a slider, its two components and the square of its size."""
+    x = values[u] - memory[first]
+    if components == 1:
+        return x, 0.0, x * x
+    y = values[u + 1] - memory[first + 1]
+    return x, y, x * x + y * y
+
+
+@force_kernel
+def _forces(motion: Array, constants: Array, row: Array, memory: Array, force: Array) -> float:
+    lost, first = 0.0, 0
+    for i in range(len(motion)):
+        c = constants[i]
+        u, v, f, components = int(c[0]), int(c[1]), int(c[2]), int(c[3])
+        sliders = int(c[_SLIDERS])
+        along_x = along_y = 0.0
+        for j in range(sliders):
+            x, y, square = _stretch(motion[i], u, components, memory, first)
+            pull, limit = c[_SLIDERS + 1 + j], c[_SLIDERS + 1 + sliders + j]
+            if square > limit * limit * (1 + _ROUNDING):
+                pull *= limit / np.sqrt(square)
+            along_x += pull * x
+            along_y += pull * y
+            first += components
+        force[i] = 0.0
+        force[i, f] = -along_x
+        if components == 2:
+            force[i, f + 1] = -along_y
+        for j in range(components):
+            force[i, f + j] -= c[_DASHPOT] * motion[i, v + j]
+            lost += c[_DASHPOT] * motion[i, v + j] ** 2
+    return lost
+
+
+@tangent_kernel
+def _tangents(motion: Array, constants: Array, row: Array, memory: Array, blocks: Array) -> None:
+    first = 0
+    for i in range(len(motion)):
+        c = constants[i]
+        u, components, sliders = int(c[0]), int(c[3]), int(c[_SLIDERS])
+        stiffness, damping, place = int(c[4]), int(c[5]), int(c[6])
+        block = blocks[i, stiffness]
+        for j in range(sliders):
+            x, y, square = _stretch(motion[i], u, components, memory, first)
+            pull, limit = c[_SLIDERS + 1 + j], c[_SLIDERS + 1 + sliders + j]
+            first += components
+            if square <= limit * limit * (1 + _ROUNDING):
+                block[place, place] -= pull
+                if components == 2:
+                    block[place + 1, place + 1] -= pull
+            elif components == 2:  # yielding, it can still turn
+                across = pull * limit / square**1.5
+                block[place, place] -= across * y * y
+                block[place, place + 1] += across * x * y
+                block[place + 1, place] += across * x * y
+                block[place + 1, place + 1] -= across * x * x
+        for j in range(components):
+            blocks[i, damping, place + j, place + j] = -c[_DASHPOT]
+
+
+@energy_kernel
+def _energy(motion: Array, constants: Array, memory: Array) -> float:
+    energy, first = 0.0, 0
+    for i in range(len(motion)):
+        c = constants[i]
+        u, components, sliders = int(c[0]), int(c[3]), int(c[_SLIDERS])
+        for j in range(sliders):
+            _, _, square = _stretch(motion[i], u, components, memory, first)
+            limit = c[_SLIDERS + 1 + sliders + j]
+            energy += c[_SLIDERS + 1 + j] * min(square, limit * limit) / 2
+            first += components
+    return energy
+
+
+@commit_kernel
+def _commit(motion: Array, constants: Array, row: Array, memory: Array) -> float:
+    heat, first = 0.0, 0
+    for i in range(len(motion)):
+        c = constants[i]
+        u, components, sliders = int(c[0]), int(c[3]), int(c[_SLIDERS])
+        for j in range(sliders):
+            x, y, square = _stretch(motion[i], u, components, memory, first)
+            limit = c[_SLIDERS + 1 + sliders + j]
+            if square > limit * limit * (1 + _ROUNDING):
+                size = np.sqrt(square)
+                slip = 1 - limit / size
+                heat += c[_SLIDERS + 1 + j] * limit * slip * size
+                memory[first] += slip * x
+                if components == 2:
+                    memory[first + 1] += slip * y
+            first += components
+    return heat
+
+
+@dataclass(frozen=True, eq=False)
+class HystereticSprings(SoilSprings):
+    """Springs whose curves are the backbones of parallel sliders.
+
+    A constant dashpot may stand beside them.
+
+    sliders : number for each spring
+    """
+
+    sliders: int = 20
+
+    force_kernel = _forces
+    tangent_kernel = _tangents
+    energy_kernel = _energy
+    commit_kernel = _commit
+
+    @cached_property
+    def constants(self) -> Array:
+        n, length = len(self.height), self.tributary_length[:, None]
+        stiffness, limit = sliders_of(self.curves, self.sliders, self.name)
+        initial = self.curves.secant(np.zeros(n)) * self.tributary_length
+        head = np.tile(self.direction.numbers, (n, 1))
+        count = np.full(n, float(self.sliders))
+        dashpot = initial * self.dashpot.initial_time
+        return np.column_stack([head, dashpot, count, length * stiffness, limit])
+
+    @property
+    def memory_size(self) -> int:
+        """Slips of the sliders."""
+        return len(self.height) * self.sliders * self.direction.components
+
+
+def sliders_of(curves: SoilCurves, count: int, name: str = "soil") -> tuple[Array, Array]:
+    """Sliders that follow curves on first loading, by chords between their yield deflections.
+
+    These are spaced geometrically from where the first fiftieth of the ultimate resistance is
+    mobilised to where all but a thousandth is; past the last one the resistance is constant. A
+    linear curve becomes one spring that never yields.
+
+    Returns
+    -------
+    stiffness, limit : (n, count) per length in N/m2 and in m
+
+    Raises
+    ------
+    InputError : a curve that falls, or stiffens, with deflection
+    """
+    n = len(curves.numbers)
+    stiffness, limit = np.zeros((n, count)), np.full((n, count), np.inf)
+    resistance = np.array([curves.resistance(np.full(n, y)) for y in _SEARCHED])
+    for i, ultimate in enumerate(curves.ultimate):
+        if ultimate == 0:
+            continue
+        if np.isinf(ultimate):
+            stiffness[i, 0] = resistance[0, i] / _SEARCHED[0]
+            continue
+        shares = np.array([_FIRST_SHARE, _LAST_SHARE]) * ultimate
+        ends = np.minimum(np.searchsorted(resistance[:, i], shares), len(_SEARCHED) - 1)
+        y = np.geomspace(_SEARCHED[ends[0]], _SEARCHED[ends[1]], count)
+        p = np.array([curves.resistance(np.full(n, value))[i] for value in y])
+        slope = np.diff(p, prepend=0.0) / np.diff(y, prepend=0.0)
+        fall = -np.diff(slope, append=0.0)
+        if np.any(fall < -1e-9 * slope[0]):
+            worst = int(np.argmin(fall))
+            raise InputError(
+                f"hysteretic springs {name!r}, node {i + 1} of {n}",
+                f"a curve that turns upwards or falls at a deflection of {y[worst]:.3g}",
+                "resistances that rise less and less steeply, and never fall",
+                "Use a static curve without residual loss (residual_ratio: 1), or a dashpot "
+                "instead of hysteretic springs.",
+            )
+        stiffness[i], limit[i] = np.maximum(fall, 0.0), y
+    return stiffness, limit

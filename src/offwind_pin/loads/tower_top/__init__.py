@@ -1,0 +1,1 @@
+"""Prescribed loads at the tower top."""

@@ -1,0 +1,190 @@
+"""Load histories at the yaw bearing: six components over time, from a file or generated."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from offwind_pin.base.definition import Array
+from offwind_pin.base.errors import InputError
+from offwind_pin.base.number_tables import read_text, to_numbers
+from offwind_pin.loads.point_load import KernelLoad, force_kernel, no_tangents
+
+COMPONENTS = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
+LARGEST_LOAD = 1e10
+"""N or N m, beyond anything a turbine gives."""
+_GAP = 5.0
+"""Times the median step, beyond which rows are missing."""
+_MANY = 20
+"""Steps from which on a file is sampled, and not a table of corners written by hand."""
+
+
+@dataclass(frozen=True, eq=False)
+class LoadHistory:
+    """Samples of (Fx, Fy, Fz, Mx, My, Mz) in N and N m in the inertial frame.
+
+    time (t,) in s, rising; load (t, 6); origin says where the numbers come from, surrogate why they
+    stand in for others (None for a user's own history).
+    """
+
+    time: Array
+    load: Array
+    origin: str
+    surrogate: str | None = None
+
+    def __post_init__(self) -> None:
+        time, load = np.asarray(self.time, dtype=float), np.asarray(self.load, dtype=float)
+        object.__setattr__(self, "time", time)
+        object.__setattr__(self, "load", load)
+        if time.ndim != 1 or load.shape != (len(time), 6) or len(time) == 0:
+            shapes = f"time {time.shape}, load {load.shape}"
+            raise InputError("load history", shapes, "time (t,) and load (t, 6)", "Reshape them.")
+        if not (np.all(np.isfinite(time)) and np.all(np.isfinite(load))):
+            raise InputError("load history", "NaN or infinity", "finite numbers", "Correct them.")
+        if np.any(np.diff(time) <= 0):
+            raise InputError("load history, time", time.tolist(), "rising times", "Sort them.")
+
+    def mean(self, start: float, end: float) -> Array:
+        """(6,) time average of the linearly interpolated history between two times."""
+        inside = self.time[(self.time > start) & (self.time < end)]
+        nodes = np.concatenate([[start], inside, [end]])
+        return np.trapezoid(self.at(nodes), nodes, axis=0) / (end - start)
+
+    def at(self, time: Array | float) -> Array:
+        """(t, 6) load, or (6,) at a single time, by linear interpolation; its ends hold beyond."""
+        if len(self.time) == 1:
+            return self.load[np.zeros(np.shape(time), dtype=np.intp)]
+        upper = np.clip(np.searchsorted(self.time, time), 1, len(self.time) - 1)
+        start, end = self.time[upper - 1], self.time[upper]
+        share = np.clip((np.asarray(time) - start) / (end - start), 0.0, 1.0)[..., None]
+        return (1 - share) * self.load[upper - 1] + share * self.load[upper]
+
+
+@force_kernel
+def _forces(motion: Array, constants: Array, row: Array, memory: Array, force: Array) -> float:
+    force[0, :] = row
+    return 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class TowerTopLoad(KernelLoad):
+    """A load history applied at the yaw bearing; its departure from the mean rises at the start.
+
+    yaw_bearing : height in m
+    mean : (6,) load that acts in full from the start, in N and N m
+    """
+
+    yaw_bearing: float
+    history: LoadHistory
+    mean: Array
+    name: str = "tower_top"
+
+    force_kernel = _forces
+    tangent_kernel = no_tangents
+
+    @property
+    def height(self) -> Array:
+        return np.array([self.yaw_bearing])
+
+    @property
+    def constants(self) -> Array:
+        return np.zeros((1, 0))
+
+    def rows(self, time: Array, rise: Array) -> Array:
+        """(t, 6) applied load."""
+        return self.mean + rise[:, None] * (self.history.at(time) - self.mean)
+
+
+def constant_load(yaw_bearing: float, load: Array) -> TowerTopLoad:
+    """A load (6,) Fx, Fy, Fz, Mx, My, Mz in N and N m that does not change.
+
+    Raises
+    ------
+    InputError : not six finite numbers
+    """
+    load = np.asarray(load, dtype=float)
+    if load.shape != (6,) or not np.all(np.isfinite(load)):
+        raise InputError(
+            "tower-top load",
+            load.tolist(),
+            "six finite numbers Fx, Fy, Fz, Mx, My, Mz in N and N m",
+            "Give all six.",
+        )
+    history = LoadHistory(np.array([0.0]), load[None, :], origin="constant")
+    return TowerTopLoad(yaw_bearing, history, load)
+
+
+def read_load_history(path: Path) -> LoadHistory:
+    """Seven columns t, Fx, Fy, Fz, Mx, My, Mz in s, N and N m, as in OpenFAST's prescribed forces.
+
+    Columns are separated by blanks, tabs or commas; ``#``, ``!`` and ``%`` start a comment. Between
+    the samples the load is interpolated linearly.
+
+    Raises
+    ------
+    InputError : missing, empty or truncated file; a cell that is no number; times that do not rise,
+        or leave a gap; loads beyond anything a turbine gives
+    """
+    text = read_text(path)
+    rows: list[tuple[float, ...]] = []
+    lines = []
+    for line, raw in enumerate(text.splitlines(), 1):
+        data = re.split(r"[#!%]", raw, maxsplit=1)[0].strip()
+        if not data:
+            continue
+        row = to_numbers(path, line, re.split(r"[\s,;]+", data), 7)
+        if max(map(abs, row[1:])) > LARGEST_LOAD:
+            raise InputError(
+                f"{path}, line {line}",
+                max(row[1:], key=abs),
+                f"loads below {LARGEST_LOAD:g} N or N m",
+                "Are the units N and N m?",
+            )
+        rows.append(row)
+        lines.append(line)
+    if len(rows) < 2:
+        raise InputError(
+            str(path), f"{len(rows)} rows", "two rows or more", "Is the file complete?"
+        )
+    values = np.array(rows)
+    check_times(path, values[:, 0], lines, "line")
+    digest = hashlib.sha256(text.encode()).hexdigest()
+    return LoadHistory(values[:, 0], values[:, 1:], origin=f"{path.name} (SHA-256 {digest})")
+
+
+def check_times(path: Path, time: Array, place: Sequence[int], counted: str) -> None:
+    """Refuse times (t,) that do not rise, or that leave a gap in evenly sampled ones.
+
+    place : (t,) where they stand in the file, in what ``counted`` names
+
+    Raises
+    ------
+    InputError : with the place of the first fault
+    """
+    step = np.diff(time)
+    back = np.flatnonzero(~(step > 0))
+    if len(back):
+        i = int(back[0])
+        raise InputError(
+            f"{path}, {counted} {place[i + 1]}, column t",
+            float(time[i + 1]),
+            f"a time later than that of {counted} {place[i]} ({time[i]:g} s)",
+            "Sort the rows by time and remove repeated ones.",
+        )
+    if len(step) < _MANY:
+        return
+    usual = float(np.median(step))
+    gaps = np.flatnonzero(step > _GAP * usual)
+    if len(gaps):
+        i = int(gaps[0])
+        raise InputError(
+            f"{path}, {counted}s {place[i]} to {place[i + 1]}, column t",
+            f"a step of {step[i]:g} s ({len(gaps)} such)",
+            f"steps of about {usual:g} s, as elsewhere in the file",
+            "Are rows missing? Fill the gap, or shorten the file.",
+        )

@@ -1,0 +1,1 @@
+"""Wind profiles, rotor thrust, tower drag."""

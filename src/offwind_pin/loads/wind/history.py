@@ -1,0 +1,57 @@
+"""The wind that a rotor meets, over time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from offwind_pin.base.definition import Array
+from offwind_pin.base.errors import InputError
+
+
+@dataclass(frozen=True, eq=False)
+class WindHistory:
+    """Rotor-effective wind speed along the shaft, periodic, linear between samples.
+
+    Attributes
+    ----------
+    interval : between samples in s
+    speed : (n,) in m/s, from time 0 on; after the last sample the first one follows
+    mean : wind speed in m/s whose steady state the rotor starts from
+    origin : where the numbers come from
+    """
+
+    interval: float
+    speed: Array
+    mean: float
+    origin: str
+
+    def __post_init__(self) -> None:
+        speed = np.asarray(self.speed, dtype=float)
+        object.__setattr__(self, "speed", speed)
+        if speed.ndim != 1 or len(speed) == 0 or not np.all(np.isfinite(speed)):
+            raise InputError("wind history", speed.shape, "finite speeds (n,)", "Correct them.")
+        if not (np.isfinite(self.interval) and self.interval > 0):
+            raise InputError(
+                "wind history, interval", self.interval, "a positive number of s", "Correct it."
+            )
+        if not (np.isfinite(self.mean) and self.mean > 0):
+            raise InputError("wind history, mean", self.mean, "a positive speed", "Correct it.")
+
+    @property
+    def period(self) -> float:
+        """Time in s after which it repeats."""
+        return self.interval * len(self.speed)
+
+    def at(self, time: Array | float) -> Array:
+        """Speed in m/s at times in s."""
+        place = np.mod(np.asarray(time, dtype=float) / self.interval, len(self.speed))
+        return np.interp(
+            place, np.arange(len(self.speed) + 1), np.append(self.speed, self.speed[0])
+        )
+
+
+def constant_wind(speed: float) -> WindHistory:
+    """A wind that does not change, in m/s."""
+    return WindHistory(1.0, np.array([speed]), speed, f"constant wind of {speed:g} m/s")

@@ -1,0 +1,279 @@
+"""The wind that a turning rotor averages: turbulence, shear and tower shadow, as blades sample it.
+
+Along the blades' path u(r, psi, t) is a sum over harmonics n of the azimuth. B equal blades keep
+those whose n is a multiple of B and shift their spectra by n times the rotor speed: energy at low
+frequencies goes to 3P, 6P, 9P (Kristensen and Frandsen 1982; Sorensen, Hansen and Rosas 2002).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from offwind_pin.base.definition import Array, ComplexArray
+from offwind_pin.base.errors import InputError
+from offwind_pin.definitions.rotor_disc import RotorDisc
+from offwind_pin.loads.wind.history import WindHistory
+
+TURBULENCE_CLASSES = {"A": 0.16, "B": 0.14, "C": 0.12}
+"""Expected turbulence intensity at 15 m/s (IEC 61400-1 ed. 3, Table 1)."""
+
+HIGHEST_ORDER = 4
+"""Multiples of the blade-passing frequency that are kept; the next hold less than 1 % of the
+variance."""
+
+_STREAM = 3
+"""Keeps the random numbers of waves and wind apart when a case gives both one seed."""
+
+_COHERENCE_DECAY = 12.0
+_COHERENCE_OFFSET = 0.12
+_ROOT_SHARE = 0.05
+"""Of the radius, where the blades begin to carry thrust."""
+_RADII, _DISTANCES, _ANGLES = 12, 16, 80
+"""Points of the quadratures; they resolve harmonics up to the twentieth."""
+_LINES = 80
+"""Frequencies at which the rotor's averaging is computed; its logarithm is a cubic spline in that
+of the frequency."""
+
+
+@dataclass(frozen=True)
+class Turbulence:
+    """Longitudinal turbulence at one height: Kaimal's spectrum and an exponential coherence.
+
+    Attributes
+    ----------
+    wind_speed : mean in m/s
+    deviation : standard deviation in m/s
+    scale : Lambda_1 in m, the turbulence scale parameter
+    """
+
+    wind_speed: float
+    deviation: float
+    scale: float
+
+    @property
+    def length(self) -> float:
+        """Integral scale 8.1 Lambda_1 in m."""
+        return 8.1 * self.scale
+
+    def spectrum(self, frequency: Array) -> Array:
+        """One-sided spectrum in (m/s)^2/Hz at frequencies in Hz (IEC 61400-1 ed. 3, Eq. B.14)."""
+        reduced = self.length / self.wind_speed
+        return self.deviation**2 * 4 * reduced / (1 + 6 * frequency * reduced) ** (5 / 3)
+
+    def coherence(self, frequency: Array | float, distance: Array) -> Array:
+        """Of two points a distance in m apart, across the wind (IEC 61400-1 ed. 3, Eq. B.16)."""
+        passing = frequency * distance / self.wind_speed
+        apart = _COHERENCE_OFFSET * distance / self.length
+        return np.exp(-_COHERENCE_DECAY * np.hypot(passing, apart))
+
+
+def scale_parameter(height: float) -> float:
+    """Lambda_1 in m at a height above the sea (IEC 61400-1 ed. 3, Eq. 5)."""
+    return 0.7 * min(height, 60.0)
+
+
+def normal_turbulence(wind_speed: float, turbulence_class: str) -> float:
+    """Standard deviation in m/s of the normal turbulence model (IEC 61400-1 ed. 3, Eq. 11).
+
+    Raises
+    ------
+    InputError : no class A, B or C
+    """
+    if turbulence_class not in TURBULENCE_CLASSES:
+        raise InputError(
+            "turbulence class", turbulence_class, "A, B or C", "Or give the intensity itself."
+        )
+    return TURBULENCE_CLASSES[turbulence_class] * (0.75 * wind_speed + 5.6)
+
+
+@dataclass(frozen=True)
+class RotorTurbulence:
+    """How a rotor averages turbulence.
+
+    Attributes
+    ----------
+    turbulence : of the wind
+    radius : in m
+    blades : how many
+    rotor_speed : in rad/s
+    root : radius in m where the blades begin to carry thrust
+    """
+
+    turbulence: Turbulence
+    radius: float
+    blades: int
+    rotor_speed: float
+    root: float
+
+    @property
+    def blade_passing_frequency(self) -> float:
+        """In Hz."""
+        return self.blades * self.rotor_speed / (2 * np.pi)
+
+    def averaging(self, frequency: Array, order: int) -> Array:
+        """(f,) share of the point spectrum in one harmonic of the azimuth, at frequencies in Hz.
+
+        F_n = int int w(r) w(s) 1/pi int_0^pi coh(f, d) cos(n psi) dpsi dr ds, with d the distance
+        of (r, 0) and (s, psi). Each blade's thrust is spread over its radius like r (a disc under
+        an even pressure), so that w(r) = 2 r / (R^2 - r0^2). All points crowd where d is small.
+        """
+        r, s, psi, weight = self._points()
+        distance = np.sqrt((r - s) ** 2 + 4 * r * s * np.sin(psi / 2) ** 2)
+        weight = weight * np.cos(order * psi)
+        return np.array(
+            [np.sum(weight * self.turbulence.coherence(f, distance)) for f in frequency]
+        )
+
+    def harmonic_spectrum(self, frequency: Array, order: int) -> Array:
+        """(f,) one-sided spectrum S_n = S F_n of a harmonic in the frame that turns, (m/s)^2/Hz."""
+        lowest = 1e-3 * self.turbulence.wind_speed / self.turbulence.length
+        highest = 1e3 * self.turbulence.wind_speed / self.radius
+        lines = np.geomspace(lowest, highest, _LINES)
+        share = CubicSpline(np.log(lines), np.log(self.averaging(lines, order)))
+        inside = np.clip(frequency, lowest, highest)
+        return np.asarray(self.turbulence.spectrum(frequency) * np.exp(share(np.log(inside))))
+
+    def thrust_spectrum(self, frequency: Array, orders: int = HIGHEST_ORDER) -> Array:
+        """(f,) one-sided spectrum of the rotor-effective wind, (m/s)^2/Hz.
+
+        S(f) = S_0(f) + sum over k of S_kB(|f - k fB|) + S_kB(f + k fB), with fB the blade-passing
+        frequency.
+        """
+        total = self.harmonic_spectrum(frequency, 0)
+        for k in range(1, orders + 1):
+            shift = k * self.blade_passing_frequency
+            both = np.concatenate([np.abs(frequency - shift), frequency + shift])
+            total += self.harmonic_spectrum(both, k * self.blades).reshape(2, -1).sum(axis=0)
+        return total
+
+    def _points(self) -> tuple[Array, Array, Array, Array]:
+        """Radii r > s and angles of pairs of points, and their weights, each pair counted twice."""
+        x, u = _gauss(_RADII)
+        y, v = _gauss(_DISTANCES)
+        z, w = _gauss(_ANGLES)
+        r, y, z = x[:, None, None], y[None, :, None], z[None, None, :]
+        span = self.radius - self.root
+        r = self.root + span * r
+        s = r - (r - self.root) * y**3
+        psi = np.pi * z**2
+        thrust = 4 * r * s / (self.radius**2 - self.root**2) ** 2
+        weight = u[:, None, None] * v[None, :, None] * w[None, None, :]
+        weight = weight * 2 * span * (r - self.root) * 3 * y**2 * 2 * z
+        return r, s, psi, thrust * weight
+
+
+def _gauss(count: int) -> tuple[Array, Array]:
+    """Points and weights of Gauss and Legendre from 0 to 1."""
+    points, weights = np.polynomial.legendre.leggauss(count)
+    return (points + 1) / 2, weights / 2
+
+
+@dataclass(frozen=True)
+class RotorWind:
+    """Settings of the wind that a rotor meets.
+
+    Attributes
+    ----------
+    wind_speed : mean at the hub in m/s
+    turbulence_intensity : standard deviation over the mean
+    shear_exponent : of the power law; 0.14 offshore, 0.2 on land (IEC 61400-3 ed. 1, 6.3.1.2;
+        61400-1 ed. 3, 6.3.1.2)
+    tower_shadow : whether the tower slows the wind before it
+    seed : of the phases
+    """
+
+    wind_speed: float
+    turbulence_intensity: float
+    shear_exponent: float = 0.14
+    tower_shadow: bool = True
+    seed: int = 1
+
+    def turbulence(self, disc: RotorDisc) -> Turbulence:
+        """Of this wind at the hub's height."""
+        deviation = self.turbulence_intensity * self.wind_speed
+        return Turbulence(self.wind_speed, deviation, scale_parameter(disc.hub_height))
+
+    def of_rotor(self, disc: RotorDisc) -> RotorTurbulence:
+        """How a rotor averages it."""
+        return RotorTurbulence(
+            self.turbulence(disc),
+            disc.radius,
+            disc.blades,
+            disc.speed(self.wind_speed),
+            _ROOT_SHARE * disc.radius,
+        )
+
+    def generate(self, disc: RotorDisc, *, repeat_period: float, dt: float = 0.02) -> WindHistory:
+        """A rotor-effective wind history, periodic in ``repeat_period`` seconds.
+
+        Its mean is the mean wind exactly: what shear and shadow change in it is left out, since
+        tables of the thrust coefficient are over the wind at the hub. Turbulence has random phases
+        on the harmonics of the period; rotor speed is rounded so that the blades pass a whole
+        number of times in it. Samples are at most dt apart.
+
+        Raises
+        ------
+        InputError : a dt too coarse for the highest multiple of the blade-passing frequency, a
+            period that is not positive, or a turbine without a table of the rotor speed
+        """
+        rotor = self.of_rotor(disc)
+        passing = rotor.blade_passing_frequency
+        highest = (HIGHEST_ORDER + 1) * passing
+        if not (np.isfinite(repeat_period) and repeat_period > 1 / passing):
+            allowed = f"more than {1 / passing:.3g} s, in which the blades pass once"
+            raise InputError("rotor wind, repeat_period", repeat_period, allowed, "Lengthen it.")
+        if not 0 < dt < 0.5 / highest:
+            limits = f"more than 0 and less than {0.5 / highest:.3g} s"
+            raise InputError("rotor wind, dt", dt, limits, "Refine it.")
+        count = int(np.ceil(repeat_period / dt - 1e-9))
+        time = np.arange(count) * repeat_period / count
+        order = np.arange(1, int(highest * repeat_period) + 1)
+        rng = np.random.default_rng((self.seed, _STREAM))
+        lines = np.zeros(count // 2 + 1, dtype=complex)
+        if self.turbulence_intensity > 0:
+            spectrum = rotor.thrust_spectrum(order / repeat_period)
+            phase = rng.uniform(0, 2 * np.pi, len(order))
+            lines[order] = count / 2 * np.sqrt(2 * spectrum / repeat_period) * np.exp(1j * phase)
+        speed = self.wind_speed + np.fft.irfft(lines, n=count)
+        rounded = round(passing * repeat_period) / repeat_period
+        for k, amplitude in enumerate(self.tones(disc), start=1):
+            speed += np.real(amplitude * np.exp(2j * np.pi * k * rounded * time))
+        return WindHistory(repeat_period / count, speed, self.wind_speed, self._describe())
+
+    def tones(self, disc: RotorDisc) -> ComplexArray:
+        """(HIGHEST_ORDER,) complex amplitudes in m/s at multiples of the blade-passing frequency.
+
+        One blade points upwards at time 0.
+        """
+        azimuth = 2 * np.pi * np.arange(720) / 720
+        steady = self._steady(disc, azimuth) - self.wind_speed
+        harmonics = 2 * np.fft.fft(steady) / len(azimuth)
+        # A real signal with the amplitude c at order n is Re(c exp(i n psi)).
+        return harmonics[disc.blades * np.arange(1, HIGHEST_ORDER + 1)]
+
+    def _steady(self, disc: RotorDisc, azimuth: Array) -> Array:
+        """(a,) mean wind in m/s over a blade that stands at an azimuth, 0 upwards."""
+        root = _ROOT_SHARE * disc.radius
+        x, weight = _gauss(64)
+        r = root + (disc.radius - root) * x
+        weight = weight * 2 * r / (disc.radius + root)
+        up = r * np.cos(azimuth)[:, None] * np.cos(disc.tilt)
+        across = -r * np.sin(azimuth)[:, None]
+        ahead = disc.overhang * np.cos(disc.tilt) - r * np.cos(azimuth)[:, None] * np.sin(disc.tilt)
+        wind = self.wind_speed * (1 + up / disc.hub_height) ** self.shear_exponent
+        if self.tower_shadow:
+            # Potential flow about a cylinder, u = U (1 - (D/2)^2 (x^2 - y^2) / (x^2 + y^2)^2).
+            height = disc.hub_height + up
+            radius = np.interp(height, disc.tower_height, disc.tower_diameter, right=0.0) / 2
+            wind = wind * (1 - radius**2 * (ahead**2 - across**2) / (ahead**2 + across**2) ** 2)
+        return np.asarray(wind @ weight)
+
+    def _describe(self) -> str:
+        return (
+            f"rotor-effective wind, {self.wind_speed:g} m/s, turbulence intensity "
+            f"{self.turbulence_intensity:.4g}, shear exponent {self.shear_exponent:g}, seed "
+            f"{self.seed}"
+        )

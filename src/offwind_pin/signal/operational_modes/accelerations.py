@@ -1,0 +1,202 @@
+"""Measured accelerations out of a CSV file."""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from offwind_pin.base.errors import InputError
+from offwind_pin.base.number_tables import read_text, to_numbers
+
+Array = NDArray[np.float64]
+
+STANDARD_GRAVITY = 9.80665
+"""m/s2; the value that defines one g (CGPM, 1901)."""
+
+_FEWEST_ROWS = 64
+_UNEVEN = 0.01
+"""Deviation of a step from the mean one, over it; more is jitter that no spectrum forgives."""
+_G_IN_NAME = re.compile(r"[\s_(\[]m?g[\])]?$", re.IGNORECASE)
+_LOOKS_LIKE_GRAVITY = (0.97, 1.03)
+
+
+@dataclass(frozen=True, eq=False)
+class Accelerations:
+    """Accelerations at equal intervals.
+
+    Attributes
+    ----------
+    time : (n,) in s
+    names : c names of the channels
+    values : (n, c) in m/s2
+    """
+
+    time: Array
+    names: tuple[str, ...]
+    values: Array
+
+    @property
+    def sample_rate(self) -> float:
+        """In Hz."""
+        return float((len(self.time) - 1) / (self.time[-1] - self.time[0]))
+
+    def select(self, names: Sequence[str]) -> Accelerations:
+        """The channels of these names, in their order, such as those of one direction.
+
+        Raises
+        ------
+        InputError : a name that is not there
+        """
+        missing = [name for name in names if name not in self.names]
+        if missing or not names:
+            allowed = ", ".join(self.names)
+            raise InputError("names", ", ".join(missing) or "none", allowed, "Choose among them.")
+        columns = [self.names.index(name) for name in names]
+        return Accelerations(self.time, tuple(names), self.values[:, columns])
+
+
+def read_accelerations(path: Path | str, factor: float | None = None) -> Accelerations:
+    """Accelerations out of a CSV file: a header, the time in s first, a column to each channel.
+
+    Lines that start with ``#`` are comments.
+
+    Parameters
+    ----------
+    factor : turns the file's unit into m/s2, such as 9.80665 for g; 1 states that it is m/s2.
+        Without it, channels that look like g are refused
+
+    Raises
+    ------
+    InputError : no such file, no header, names twice, a cell that is no finite number, times that
+        do not rise evenly, missing rows, fewer than 64 rows, a channel that does not move, or one
+        that seems to be in g
+    """
+    path = Path(path)
+    if factor is not None and not (np.isfinite(factor) and factor > 0):
+        raise InputError("factor", factor, "a positive number", "Give 9.80665 for g.")
+    header, lines, rows = _table(path)
+    if len(rows) < _FEWEST_ROWS:
+        allowed = f"{_FEWEST_ROWS} or more"
+        raise InputError(str(path), f"{len(rows)} rows", allowed, "Is the file complete?")
+    _check_times(path, rows[:, 0], lines)
+    values = rows[:, 1:]
+    for i, name in enumerate(header[1:]):
+        if np.ptp(values[:, i]) == 0:
+            raise InputError(
+                f"{path}, channel {name}",
+                f"{values[0, i]:g} at all times",
+                "channels that move",
+                "Delete the column: is the sensor dead?",
+            )
+        if factor is None:
+            _check_unit(path, name, values[:, i])
+    return Accelerations(rows[:, 0], tuple(header[1:]), values * (factor or 1.0))
+
+
+def _table(path: Path) -> tuple[list[str], list[int], Array]:
+    """Header, line numbers of the rows, and the rows."""
+    kept = [
+        (number, raw.strip())
+        for number, raw in enumerate(read_text(path).splitlines(), 1)
+        if raw.strip() and not raw.strip().startswith("#")
+    ]
+    if not kept:
+        allowed = "a header and rows of numbers"
+        raise InputError(str(path), "no rows", allowed, "Is the file complete?")
+    header = [cell.strip() for cell in next(csv.reader([kept[0][1]]))]
+    _check_header(f"{path}, line {kept[0][0]}", header)
+    lines = [number for number, _ in kept[1:]]
+    texts = [text for _, text in kept[1:]]
+    if not texts:
+        return header, lines, np.empty((0, len(header)))
+    try:
+        rows = np.loadtxt(texts, delimiter=",", ndmin=2)
+    except ValueError:
+        rows = np.empty((0, 0))
+    if rows.shape != (len(texts), len(header)) or not np.all(np.isfinite(rows)):
+        # Slowly, cell by cell: quoted numbers are read, and a fault is told with its line.
+        cells = (next(csv.reader([text])) for text in texts)
+        rows = np.array(
+            [
+                to_numbers(path, line, [cell.strip() for cell in row], len(header))
+                for line, row in zip(lines, cells, strict=True)
+            ]
+        )
+    return header, lines, rows
+
+
+def _check_header(where: str, header: list[str]) -> None:
+    if len(header) < 2:
+        raise InputError(
+            where, ",".join(header), "time and one channel or more, with commas", "Complete it."
+        )
+    numbers = [cell for cell in header if _is_number(cell)]
+    if numbers or "" in header:
+        allowed = "a header that names time and channels"
+        raise InputError(where, ",".join(header), allowed, "Add names above the numbers.")
+    twice = sorted({name for name in header if header.count(name) > 1})
+    if twice:
+        raise InputError(where, f"{', '.join(twice)} twice", "names of their own", "Rename them.")
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return True
+
+
+def _check_times(path: Path, time: Array, lines: list[int]) -> None:
+    """Even steps; what differs is told with its line, a gap as a gap."""
+    steps = np.diff(time)
+    step = float(np.median(steps))
+    falls = np.flatnonzero(steps <= 0)
+    if len(falls):
+        at = falls[0] + 1
+        raise InputError(
+            f"{path}, line {lines[at]}",
+            f"time {time[at]:g} s after {time[at - 1]:g} s",
+            "times that rise",
+            "Is the time the first column, and is the file whole?",
+        )
+    gaps = np.flatnonzero(steps > 1.5 * step)
+    if len(gaps):
+        at = gaps[0] + 1
+        raise InputError(
+            f"{path}, line {lines[at]}",
+            f"a step of {steps[at - 1]:g} s among steps of {step:g} s",
+            "a record without gaps",
+            "Cut the file there and use the longer part.",
+        )
+    uneven = np.flatnonzero(np.abs(steps - step) > _UNEVEN * step)
+    if len(uneven):
+        at = uneven[0] + 1
+        raise InputError(
+            f"{path}, line {lines[at]}",
+            f"a step of {steps[at - 1]:.6g} s among steps of {step:.6g} s",
+            f"steps that are equal within {100 * _UNEVEN:g} %",
+            "Give the time with more digits, or resample the record.",
+        )
+
+
+def _check_unit(path: Path, name: str, values: Array) -> None:
+    mean = abs(float(np.mean(values)))
+    low, high = _LOOKS_LIKE_GRAVITY
+    said = _G_IN_NAME.search(name) is not None
+    # A sensor that stands upright feels gravity: 1 in g, 9.81 in m/s2.
+    if not said and not (low < mean < high and np.std(values) < 0.3 * mean):
+        return
+    found = "its name says g" if said else f"a mean of {mean:.4g}, as gravity has in g"
+    raise InputError(
+        f"{path}, channel {name}",
+        found,
+        "accelerations in m/s2",
+        f"Pass factor={STANDARD_GRAVITY} for g (a thousandth for mg), or factor=1 if it is m/s2.",
+    )

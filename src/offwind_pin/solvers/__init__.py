@@ -1,0 +1,1 @@
+"""Newton, eigenproblem, generalised-alpha, step policies: mathematics only."""

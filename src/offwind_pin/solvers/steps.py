@@ -1,0 +1,106 @@
+"""Step policies: into how many equal steps the time between two outputs is divided."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Protocol
+
+from offwind_pin.base.errors import InputError
+
+
+class StepPolicy(Protocol):
+    """Chooses the number of steps of an interval, from how the one before it went."""
+
+    def first(self, interval: float) -> int:
+        """Number of steps in the first interval, whose length is given in s."""
+
+    def next(self, steps: int, error: float, interval: float) -> int:
+        """Number of steps after an interval of so many steps with that largest local error.
+
+        More than ``steps`` rejects the interval: it is done again with that many. An infinite
+        error is a step that failed.
+        """
+
+    def most(self, interval: float) -> int:
+        """Number of steps of an interval beyond which a failure is reported."""
+
+    def describe(self) -> dict[str, float | str]:
+        """Plain data for the results."""
+
+
+@dataclass(frozen=True)
+class FixedStep:
+    """Steps of one size; where one fails, the interval is done again with halved ones.
+
+    dt in s; halvings : how often steps may be halved before the failure is reported
+    """
+
+    dt: float
+    halvings: int = 4
+
+    def __post_init__(self) -> None:
+        _check_positive("dt", self.dt)
+
+    def first(self, interval: float) -> int:
+        steps = round(interval / self.dt)
+        if steps < 1 or abs(steps * self.dt - interval) > 1e-6 * interval:
+            allowed = f"a multiple of dt = {self.dt} s"
+            raise InputError("output_dt", interval, allowed, "Adjust one of them.")
+        return steps
+
+    def next(self, steps: int, error: float, interval: float) -> int:
+        return 2 * steps if math.isinf(error) else self.first(interval)
+
+    def most(self, interval: float) -> int:
+        return self.first(interval) * 2**self.halvings
+
+    def describe(self) -> dict[str, float | str]:
+        return {"step_policy": "fixed", "dt_s": self.dt}
+
+
+@dataclass(frozen=True)
+class AdaptiveStep:
+    """Steps halved where the local error exceeds a tolerance, doubled where it is far below.
+
+    The error of a step is estimated as |beta - 1/6| h^2 max|a_new - a|, the leading term of the
+    displacement that a second-order step leaves out (Zienkiewicz and Xie, 1991).
+
+    Attributes
+    ----------
+    tolerance : largest local error of a joint's displacement, in m or rad
+    smallest, largest : bounds of the step in s
+    """
+
+    tolerance: float = 1e-7
+    smallest: float = 1e-5
+    largest: float = 0.1
+
+    def __post_init__(self) -> None:
+        for name in ("tolerance", "smallest", "largest"):
+            _check_positive(name, getattr(self, name))
+        if self.smallest > self.largest:
+            allowed = f"at most the largest, {self.largest} s"
+            raise InputError("smallest", self.smallest, allowed, "Exchange them.")
+
+    def first(self, interval: float) -> int:
+        return max(1, math.ceil(interval / self.largest - 1e-9))
+
+    def next(self, steps: int, error: float, interval: float) -> int:
+        if error > self.tolerance:
+            return 2 * steps
+        # Twice the step has about eight times the error.
+        if error < self.tolerance / 16 and steps % 2 == 0 and steps // 2 >= self.first(interval):
+            return steps // 2
+        return steps
+
+    def most(self, interval: float) -> int:
+        return max(self.first(interval), int(interval / self.smallest))
+
+    def describe(self) -> dict[str, float | str]:
+        return {"step_policy": "adaptive", "step_tolerance": self.tolerance}
+
+
+def _check_positive(name: str, value: float) -> None:
+    if not (math.isfinite(value) and value > 0):
+        raise InputError(name, value, "a positive number", "Correct it.")

@@ -1,1 +1,0 @@
-"""Turbine definitions: typed models, the shipped library, the reader."""

@@ -1,0 +1,209 @@
+"""What breaks a program that trusts its input: each answered, none in silence."""
+
+from __future__ import annotations
+
+import copy
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import yaml
+
+import offwind_pin as ow
+from offwind_pin import cli
+from offwind_pin.definitions.turbine import Member, Station
+from offwind_pin.signal.spectra import band_sum
+
+SHIPPED = yaml.safe_load(
+    (resources.files("offwind_pin.definitions") / "library" / "oc6_phase2.yaml").read_text()
+)
+
+
+@pytest.fixture
+def symmetric(oc6: ow.Turbine) -> ow.Turbine:
+    """The benchmark with a top mass that is the same in every direction."""
+    rna = {
+        "kind": "rigid_body",
+        "mass_kg": 8e5,
+        "center_of_mass_m": [0, 0, 3],
+        "inertia_about_center_of_mass_kg_m2": [[1e8, 0, 0], [0, 1e8, 0], [0, 0, 1e8]],
+    }
+    return ow.Turbine.model_validate(copy.deepcopy(SHIPPED) | {"rna": rna})
+
+
+def test_pile_of_two_walls(oc6: ow.Turbine) -> None:
+    """A wall that changes below the mudline makes two spans of one region, numbered through."""
+    lower, upper = (
+        Member(
+            name=name,
+            material="steel",
+            stations=tuple(Station(z=z, diameter=9.0, thickness=wall) for z in ends),
+        )
+        for name, wall, ends in (("toe", 0.09, (-75, -50)), ("monopile", 0.11, (-50, 10)))
+    )
+    split = oc6.model_copy(update={"members": (lower, upper, oc6.members[1])})
+    system = ow.build(split, "distributed_springs", elements={"pile": 20, "tower": 20})
+    assert system.chain.region.count("pile") == 20
+    assert len(set(system.chain.joint_name)) == system.nv
+    whole = ow.modes(ow.build(oc6, "distributed_springs", elements={"pile": 20, "tower": 20}))
+    assert ow.modes(system).frequency_hz[0] == pytest.approx(whole.frequency_hz[0], rel=5e-3)
+
+
+def test_planes_of_a_symmetric_turbine_are_told_apart(symmetric: ow.Turbine) -> None:
+    """Where fore-aft and side-side are one, the modes still lie in the two planes, and are damped
+    as asked."""
+    for elements in (10, 13, None):
+        system = ow.build(symmetric, "coupled_springs", ow.StillWater(), elements=elements)
+        modes = ow.modes(system, 4)
+        assert sorted(modes.label) == ["FA1", "FA2", "SS1", "SS2"]
+        assert np.all(modes.participation.max(axis=1) > 0.999)
+        assert ow.modes(system, 1).participation.max() > 0.999
+    assert modes.damping_ratio[modes.index("FA2")] == pytest.approx(0.0127, rel=1e-3)
+    assert modes.damping_ratio[modes.index("SS2")] == pytest.approx(0.0133, rel=1e-3)
+
+
+def test_buckled_state_is_no_answer(clamped_dry: ow.System) -> None:
+    """Beyond the critical load the lean reverses; that state is refused, a lesser load is not."""
+    with pytest.raises(ow.SolverError, match="unstable"):
+        ow.static(clamped_dry, np.array([0, 0, -4e8, 0, 0, 0.0]))
+    assert ow.static(clamped_dry, np.array([0, 0, -3e7, 0, 0, 0.0])).tower_top_displacement[0] < 0
+
+
+def test_misspelt_rule_is_refused(oc6: ow.Turbine) -> None:
+    """A rule that is none is not taken for the other one."""
+    with pytest.raises(ow.InputError, match="flexibility, midpoint"):
+        ow.build(oc6, "clamped", stiffness="flexibilty")  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("elements", [0, -5, 1001, 10_000])
+def test_numbers_of_elements_out_of_reach(oc6: ow.Turbine, elements: int) -> None:
+    """Too few and too many elements are refused before any memory is taken."""
+    with pytest.raises(ow.InputError, match="elements"):
+        ow.build(oc6, "clamped", elements=elements)
+
+
+def test_more_elements_than_pinocchio_s_memory(undamped: ow.Turbine) -> None:
+    """Beyond what Pinocchio's tensors allow, modes are refused by number; statics go on."""
+    system = ow.build(undamped, "clamped", elements=240)
+    with pytest.raises(ow.InputError, match=r"720 joints.*700 joints at most"):
+        ow.modes(system)
+    fine, default = ow.static(system), ow.static(ow.build(undamped, "clamped"))
+    lean = default.tower_top_displacement[0]
+    assert fine.tower_top_displacement[0] == pytest.approx(lean, rel=1e-3)
+
+
+@pytest.mark.parametrize("sea", ["still_water", ow.StillWater, 1.25])
+def test_sea_that_is_none(oc6: ow.Turbine, sea: Any) -> None:
+    """A sea must be one of the package's."""
+    with pytest.raises(ow.InputError, match="sea"):
+        ow.build(oc6, "clamped", sea)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [{"repeat_period": 1.0}, {"seed": -1}, {"seed": 1.5}, {"peak_period": 0.0}],
+    ids=str,
+)
+def test_waves_that_cannot_be(change: dict[str, Any]) -> None:
+    """A sea without components, or without a whole seed, is refused."""
+    settings = {"significant_height": 2.0, "peak_period": 10.0, "seed": 1, "repeat_period": 600.0}
+    with pytest.raises(ow.InputError, match="waves"):
+        ow.IrregularWaves(**(settings | change))
+
+
+@pytest.mark.parametrize(
+    ("time", "load"),
+    [
+        ([0.0, 1.0], np.zeros((2, 5))),
+        ([0.0, 1.0], np.zeros((3, 6))),
+        ([1.0, 0.0], np.zeros((2, 6))),
+        ([0.0, 1.0], np.full((2, 6), np.nan)),
+        ([], np.zeros((0, 6))),
+    ],
+    ids=["five columns", "lengths", "order", "NaN", "empty"],
+)
+def test_histories_that_are_none(time: list[float], load: np.ndarray) -> None:
+    """Shapes, order and numbers of a load history are checked where it is made."""
+    with pytest.raises(ow.InputError, match="load history"):
+        ow.LoadHistory(np.array(time), load, "made here")
+
+
+def test_band_beyond_the_spectrum() -> None:
+    """A band that the sampling cannot see is refused, not made up."""
+    frequency = np.linspace(0, 1.0, 101)
+    with pytest.raises(ow.InputError, match="Sample more often"):
+        band_sum(frequency, np.ones(101), 1.0, 1.5)
+    assert band_sum(frequency, np.ones(101), 0.2, 0.3) == pytest.approx(0.1)
+
+
+def test_state_of_another_system(clamped_dry: ow.System, coupled_wet: ow.System) -> None:
+    """Modes about a state that belongs to another system are refused."""
+    with pytest.raises(ow.InputError, match="about"):
+        ow.modes(clamped_dry, 3, ow.static(coupled_wet))
+
+
+@pytest.mark.parametrize(
+    "settings", [{"output_dt": float("nan")}, {"spectral_radius": 2.0}], ids=str
+)
+def test_settings_of_a_simulation(clamped_dry: ow.System, settings: dict[str, float]) -> None:
+    """Numbers that mean nothing to the integrator are refused by name."""
+    with pytest.raises(ow.InputError, match=next(iter(settings))):
+        ow.simulate(clamped_dry, 1.0, 0.1, **settings)
+
+
+def _exit(monkeypatch: pytest.MonkeyPatch, *argv: str) -> int:
+    monkeypatch.setattr("sys.argv", ["offwind", *argv])
+    with pytest.raises(SystemExit) as stop:
+        cli.main()
+    return int(stop.value.code or 0)
+
+
+def test_places_that_cannot_be_written(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Any
+) -> None:
+    """A file in the way of a folder is found before the solve, for every command that writes."""
+    blocking = tmp_path / "file"
+    blocking.write_text("kept")
+    for argv in (
+        ["run", "oc6-lc2.1", "--out", str(blocking / "x")],
+        ["urdf", "oc6_phase2", "--out", str(blocking)],
+        ["animate", "oc6_phase2", "--html", str(blocking / "x.html")],
+    ):
+        assert _exit(monkeypatch, *argv) == 2
+        assert "a directory, but" in capsys.readouterr().err
+    assert blocking.read_text() == "kept"
+
+
+def test_a_failed_run_leaves_nothing_of_an_older_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Any
+) -> None:
+    """Files of an earlier, complete run do not stand beside the summary of a failed one."""
+    assert _exit(monkeypatch, "run", "oc6-lc2.1", "--out", str(tmp_path)) == 0
+    heavy = copy.deepcopy(SHIPPED)
+    heavy["materials"]["steel"]["youngs_modulus_pa"] = 1e9
+    heavy.pop("structural_damping")
+    (tmp_path / "t.yaml").write_text(yaml.safe_dump(heavy))
+    case = {
+        "name": "heavy",
+        "turbine": "t.yaml",
+        "foundation": "clamped",
+        "sea": {"kind": "dry"},
+        "analysis": {"kind": "modes"},
+    }
+    (tmp_path / "c.yaml").write_text(yaml.safe_dump(case))
+    assert _exit(monkeypatch, "run", str(tmp_path / "c.yaml"), "--out", str(tmp_path)) == 3
+    assert '"status": "failed"' in (tmp_path / "summary.json").read_text()
+    assert not (tmp_path / "report.html").exists()
+    assert not (tmp_path / "results.nc").exists()
+
+
+def test_small_structures_show_what_modes_they_have(
+    oc6: ow.Turbine, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Any
+) -> None:
+    """With fewer degrees of freedom than modes wanted by default, all of them are shown."""
+    assert (
+        _exit(monkeypatch, "modes", "oc6_phase2", "--foundation", "clamped", "--elements", "2") == 0
+    )
+    assert capsys.readouterr().out.count("Hz") == 6

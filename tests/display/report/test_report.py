@@ -1,0 +1,499 @@
+"""The report: complete, self-contained, escaped, and written whole or not at all."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from html.parser import HTMLParser
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+from helpers.earthquakes import shaking
+
+import offwind_pin as ow
+from offwind_pin.analysis.settling import Settling
+from offwind_pin.base.mode_labels import is_mode, mode_name
+from offwind_pin.display.figures import results as plots
+from offwind_pin.display.report.case_report import SECTIONS, render_report, tables, write_report
+from offwind_pin.display.report.contents import CaseReport, Published, WindDescription
+from offwind_pin.display.wording import (
+    DASH,
+    MINUS,
+    TIMES,
+    difference,
+    fixed,
+    listing,
+    number,
+    significant_digits,
+)
+from offwind_pin.loads.earthquake.description import EarthquakeDescription
+from offwind_pin.loads.wind.synthetic_thrust import operate_rotor
+from offwind_pin.signal.moment_spectrum import Band, MomentSpectrum
+from offwind_pin.signal.operational_modes.identify import IdentifiedModes
+from offwind_pin.signal.response_spectrum import response_spectrum
+from offwind_pin.signal.spectra import band_sum, peaks, power_spectral_density
+
+HOSTILE = '"><script>alert(1)</script><img src=x onerror=alert(2)>'
+RAMP = 4.0
+
+
+class Page(HTMLParser):
+    """Tags, attributes and visible text of a page."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.tags: list[str] = []
+        self.attributes: list[tuple[str, str]] = []
+        self.words: list[str] = []
+        self._hidden = False
+        self.feed(text)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.append(tag)
+        self.attributes += [(name, value or "") for name, value in attrs]
+        self._hidden = tag == "style"
+
+    def handle_data(self, data: str) -> None:
+        if not self._hidden:
+            self.words.append(data)
+
+    @property
+    def text(self) -> str:
+        return " ".join(" ".join(self.words).split())
+
+    def values(self, name: str) -> list[str]:
+        return [value for key, value in self.attributes if key == name]
+
+
+@pytest.fixture(scope="module")
+def full(coarse: ow.System) -> CaseReport:
+    """A report with every section, of a short case on few elements."""
+    wind = ow.SyntheticWind(9.06, 0.388)
+    rotor = operate_rotor(coarse.turbine.rna, 9.06, 0.388)
+    load = wind.generate(coarse.turbine.rna, duration=20.0, repeat_period=20.0, dt=0.05)
+    histories = ow.simulate(coarse, 20.0, 0.05, [load], ramp=RAMP)
+    state = ow.static(coarse, load.mean(RAMP, 20.0))
+    modes = ow.modes(coarse, 8, state)
+    psd = spectrum(histories, modes)
+    return CaseReport(
+        name="short",
+        title="A short case",
+        description="Twenty seconds.",
+        system=coarse,
+        summary={"case": "short", "wall_s": 2.5, "realtime_factor": 8.0, "status": "complete"},
+        modes=modes,
+        statics={"distributed_springs": state},
+        histories=histories,
+        published=(
+            Published("first fore-aft", 0.24, "Hz", "a paper", float(modes.frequency_hz[1])),
+            Published("PSD sum ratio", 100.0, "", "a paper", psd.ratio),
+            Published("damage", 1.0, "", "a paper"),
+        ),
+        wind=WindDescription(wind, rotor),
+        rotor=(("mean thrust", "1.1 MN"),),
+        earthquake=described_earthquake(),
+        identified=identified_modes(),
+        settling=settling(),
+        psd=psd,
+    )
+
+
+@pytest.fixture(scope="module")
+def bare(undamped: ow.Turbine) -> CaseReport:
+    """The least a report can hold."""
+    system = ow.build(undamped, "clamped", elements=6)
+    return CaseReport("bare", "Bare", "", system, {})
+
+
+@pytest.fixture(scope="module")
+def html(full: CaseReport) -> str:
+    return render_report(full)
+
+
+@pytest.fixture(scope="module")
+def page(html: str) -> Page:
+    return Page(html)
+
+
+def identified_modes() -> IdentifiedModes:
+    """Two shapes at five nodes, as good as exact."""
+    height = np.linspace(-30.0, 115.0, 5)
+    shape = np.array([np.linspace(0, 1, 5) ** 2, np.sin(np.linspace(0.2, 2.8, 5))])
+    values = np.array([0.24, 1.14])
+    lines = np.linspace(0.01, 3.0, 300)
+    found = ow.OperationalModes(
+        frequency_hz=values,
+        damping_ratio=np.array([0.006, 0.025]),
+        damping_error=np.zeros(2),
+        damping_scatter=np.array([0.001, 0.001]),
+        shape=shape,
+        complexity=np.zeros(2),
+        complex_shape=shape.astype(complex),
+        peak_hz=values,
+        bell_hz=np.column_stack([values, values]),
+        names=tuple("abcde"),
+        frequencies=lines,
+        singular_values=1e-3 / np.outer(1 + 100 * (lines - 0.24) ** 2, np.arange(1, 6) ** 2),
+        segments=40,
+        averages=40.0,
+        cautions=("a caution about the record",),
+    )
+    return IdentifiedModes(
+        label=("FA1", "FA2"),
+        height=height,
+        found=found,
+        frequency_hz=1.001 * values,
+        damping_ratio=found.damping_ratio,
+        shape=shape,
+        assurance=np.ones(2),
+        peak_height_ratio=np.array([1.0, 0.6]),
+        duration=600.0,
+        seed=1,
+    )
+
+
+def settling() -> Settling:
+    time = np.linspace(0.0, 300.0, 601)
+    swing = 0.2 * np.exp(-time / 30) * np.cos(1.5 * time)
+    top = np.column_stack([-0.2 + swing, 0 * time, 0 * time])
+    return Settling(time, top, np.abs(swing), top[-1])
+
+
+def described_earthquake() -> EarthquakeDescription:
+    motion = shaking()
+    record = motion.corrected[0]
+    found = response_spectrum(record, motion.step, np.geomspace(0.05, 10, 30))
+    return EarthquakeDescription(motion.time, record, found, {"FA1": 4.2}, (("record", "made"),))
+
+
+def spectrum(histories: xr.Dataset, modes: ow.ModalResult) -> MomentSpectrum:
+    moment = histories.mudline_moment.sel(direction="y", time=slice(RAMP, None)).values
+    frequency, density = power_spectral_density(moment, 0.05, 10.0)
+    bands = tuple(
+        Band(low, high, band_sum(frequency, density, low, high))
+        for low, high in ((0.2, 0.3), (1.0, 1.5))
+    )
+    marked = {"wave peak": 1 / 6, "3P": 0.388, "FA1": float(modes.frequency_hz[1])}
+    found = tuple(peaks(frequency, density, 0.05, 1.6))
+    return MomentSpectrum(frequency, density, found, bands, marked, 10.0)
+
+
+def sections(text: str) -> list[str]:
+    return re.findall(r'<section[^>]*\bid="([^"]+)"', text)
+
+
+class TestSelfContained:
+    def test_holds_no_address_and_no_script(self, html: str, page: Page) -> None:
+        assert "http://" not in html
+        assert "https://" not in html
+        assert "@import" not in html
+        assert not {"script", "link", "iframe", "object", "embed", "img", "image"} & set(page.tags)
+        assert not [name for name, _ in page.attributes if name.startswith("on")]
+
+    def test_every_reference_is_found_within(self, html: str, page: Page) -> None:
+        references = page.values("href") + page.values("src") + page.values("xlink:href")
+        references += re.findall(r"url\(([^)]*)\)", html)
+        ids = page.values("id")
+        assert len(references) > 20
+        assert len(set(ids)) == len(ids)
+        assert {reference.removeprefix("#") for reference in references} <= set(ids)
+
+    def test_is_the_same_every_time(self, full: CaseReport, html: str) -> None:
+        assert render_report(full) == html
+
+
+class TestContents:
+    def test_every_section_in_order(self, html: str) -> None:
+        assert sections(html) == list(SECTIONS)
+
+    def test_sections_without_data_are_left_out(self, bare: CaseReport) -> None:
+        assert sections(render_report(bare)) == ["structure", "damping", "provenance"]
+
+    @pytest.mark.parametrize(
+        ("field", "nothing", "gone"),
+        [
+            ("modes", None, {"modes"}),
+            ("statics", {}, {"statics"}),
+            ("psd", None, {"psd"}),
+            ("wind", None, {"wind"}),
+            ("rotor", (), {"rotor"}),
+            ("earthquake", None, {"earthquake"}),
+            ("identified", None, {"identified"}),
+            ("published", (), {"published"}),
+            ("histories", None, {"histories", "envelope", "sea"}),
+        ],
+    )
+    def test_leaving_out_one_part(
+        self, full: CaseReport, field: str, nothing: object, gone: set[str]
+    ) -> None:
+        text = render_report(replace(full, **{field: nothing}))
+        assert sections(text) == [name for name in SECTIONS if name not in gone]
+
+    def test_the_table_of_contents_names_what_is_there(self, bare: CaseReport) -> None:
+        text = render_report(bare)
+        links = re.findall(r'href="#([a-z]+)">', text)
+        assert links == ["structure", "damping", "provenance"]
+
+    def test_key_numbers(self, full: CaseReport, page: Page) -> None:
+        assert full.modes is not None
+        assert full.psd is not None
+        assert full.psd.ratio is not None
+        for label in ("FA1", "FA2", "SS1"):
+            i = full.modes.index(label)
+            assert f"{full.modes.frequency_hz[i]:.4f}" in page.text
+            assert f"{100 * full.modes.damping_ratio[i]:.2f}" in page.text
+        state = full.statics["distributed_springs"]
+        assert number(state.tower_top_displacement[0]) in page.text
+        assert number(state.mudline_load[4] / 1e6) in page.text
+        assert number(full.psd.ratio, 3) in page.text
+        assert number(full.psd.bands[0].area / 1e12, 3) in page.text
+
+    def test_solver_account(self, full: CaseReport, page: Page) -> None:
+        assert full.histories is not None
+        mean = float(full.histories.solver_iterations[1:].mean())
+        worst = float(full.histories.solver_residual.max())
+        assert f"{mean:.2f} on average" in page.text
+        assert " ".join(number(worst, 2).split()) in page.text
+        assert "time steps 400" in page.text
+        assert "2.50 s" in page.text
+        assert "8.00 (simulated over wall time)" in page.text
+
+    def test_provenance(self, full: CaseReport, page: Page) -> None:
+        assert full.histories is not None
+        assert full.histories.attrs["definition_sha256"] in page.text
+        assert "seed of the waves 3" in page.text
+        assert "seed of the synthetic wind 1" in page.text
+        assert '"wall_s": 2.5' in page.text
+
+    def test_mean_thrust_is_derived(self, full: CaseReport, page: Page) -> None:
+        assert full.wind is not None
+        assert f"{number(full.wind.rotor.thrust / 1e6)} MN" in page.text
+        assert number(full.wind.rotor.tip_speed_ratio, 3) in page.text
+
+    def test_damping_achieved(self, full: CaseReport, page: Page) -> None:
+        for label, ratio in full.system.damping_ratios.items():
+            row = f"{label} {mode_name(label)} "
+            assert row in page.text
+            assert f"{100 * ratio:.3f}" in page.text
+
+
+class TestSurrogates:
+    def test_are_told_with_their_reasons(self, full: CaseReport, page: Page) -> None:
+        assert full.system.foundation.surrogate is not None
+        assert full.wind is not None
+        assert " ".join(full.system.foundation.surrogate.split()) in page.text
+        assert full.wind.generator.surrogate.removeprefix("synthetic") in page.text
+        assert page.text.count("To replace it") == 2
+
+    def test_are_not_made_up(self, bare: CaseReport, full: CaseReport) -> None:
+        assert "surrogate" not in Page(render_report(bare)).text
+        assert full.histories is not None
+        assert full.system.foundation.surrogate is not None
+        measured = full.histories.assign_attrs(surrogates=full.system.foundation.surrogate)
+        text = Page(render_report(replace(full, histories=measured, wind=None))).text
+        assert text.count("To replace it") == 1
+
+
+class TestPublished:
+    def test_difference_is_said(self, full: CaseReport, page: Page) -> None:
+        ours = full.published[0].ours
+        assert ours is not None
+        assert difference(ours, 0.24, "Hz") in page.text
+        assert "not computed" in page.text
+        assert "of 2; the farthest" in page.text
+
+    def test_frequencies_stand_beside_their_modes(self, full: CaseReport, html: str) -> None:
+        assert re.search(r"<td>FA1</td>[^\n]*\n<td class=\"n\">0.24</td>", html)
+        assert re.search(r"<td>FA2</td>[^\n]*\n<td class=\"n\">–</td>", html)
+        rows = (Published("x", 1.1, "Hz", "", 1.0, mode="FA2"),)
+        by_label = render_report(replace(full, published=rows, histories=None, psd=None))
+        assert re.search(r"<td>FA2</td>[^\n]*\n<td class=\"n\">1.1</td>", by_label)
+
+    def test_bars_point_to_the_side_and_stop_at_the_end(self, bare: CaseReport) -> None:
+        rows = (
+            Published("low", 1.0, "m", "", 0.95),
+            Published("high", 1.0, "m", "", 1.02),
+            Published("far", 1.0, "m", "", 7.0),
+        )
+        text = render_report(replace(bare, published=rows))
+        bars = re.findall(r"left:([\d.]+)%;width:([\d.]+)%", text)
+        assert bars == [("25.0", "25.0"), ("50.0", "10.0"), ("50.0", "50.0")]
+
+
+class TestHeadline:
+    def test_statics_are_compared(self, undamped: ow.Turbine) -> None:
+        systems = {
+            name: ow.build(undamped, name, elements=8)
+            for name in ("clamped", "distributed_springs")
+        }
+        states = {name: ow.static(system) for name, system in systems.items()}
+        before, now = (state.tower_top_displacement[0] for state in states.values())
+        report = CaseReport("s", "S", "", systems["distributed_springs"], {}, statics=states)
+        text = Page(render_report(report)).text
+        increase = f"{100 * (now / before - 1):.1f} %"
+        assert f"leans {increase} further on distributed springs than clamped at" in text
+        backwards = replace(report, statics=dict(reversed(states.items())))
+        assert Page(render_report(backwards)).text == text
+        assert f"{fixed(now, 3)} m along x instead of {fixed(before, 3)} m" in text
+
+    def test_a_run_that_stopped_says_so(self, full: CaseReport) -> None:
+        assert full.histories is not None
+        short = full.histories.isel(time=slice(0, 40)).assign_attrs(status="failed")
+        report = replace(full, histories=short, psd=None)
+        text = render_report(report)
+        assert "Not complete." in text
+        assert "it ends at 1.950 s" in text
+        assert "envelope" not in sections(text)
+
+    def test_a_complete_run_does_not(self, page: Page) -> None:
+        assert "Not complete." not in page.text
+
+
+class TestHostileNames:
+    def test_are_shown_and_not_obeyed(self, full: CaseReport) -> None:
+        assert full.psd is not None
+        assert full.histories is not None
+        nasty = replace(
+            full,
+            name=HOSTILE,
+            title=HOSTILE,
+            description=HOSTILE,
+            summary={HOSTILE: HOSTILE},
+            statics={HOSTILE: full.statics["distributed_springs"]},
+            published=(Published(HOSTILE, 1.0, HOSTILE, HOSTILE, 2.0),),
+            psd=replace(full.psd, marked={HOSTILE: 0.3}),
+            histories=full.histories.assign_attrs(surrogates=HOSTILE, **{HOSTILE: HOSTILE}),
+        )
+        text = render_report(nasty)
+        page = Page(text)
+        assert not {"script", "img"} & set(page.tags)
+        assert not [name for name, _ in page.attributes if name.startswith("on")]
+        assert page.text.count("<script>alert(1)</script>") >= 10
+
+
+class TestWriting:
+    def test_writes_what_is_rendered(self, bare: CaseReport, tmp_path: Path) -> None:
+        path = tmp_path / "new" / "report.html"
+        write_report(path, bare)
+        assert path.read_text(encoding="utf-8") == render_report(bare)
+
+    def test_a_failure_leaves_the_old_file(
+        self, bare: CaseReport, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        path = tmp_path / "report.html"
+        path.write_text("old")
+
+        def fail(system: ow.System) -> None:
+            raise RuntimeError("no picture")
+
+        monkeypatch.setattr(plots, "structure", fail)
+        with pytest.raises(RuntimeError, match="no picture"):
+            write_report(path, bare)
+        assert [entry.name for entry in tmp_path.iterdir()] == ["report.html"]
+        assert path.read_text() == "old"
+
+
+class TestMomentSpectrum:
+    @pytest.fixture
+    def psd(self) -> MomentSpectrum:
+        frequency = np.linspace(0, 2, 201)
+        density = np.exp(-(((frequency - 1.2) / 0.1) ** 2)) + 1e-6
+        bands = (Band(0.2, 0.3, 8.0), Band(1.0, 1.5, 2.0))
+        marked = {"3P": 0.25, "FA2": 1.101}
+        return MomentSpectrum(frequency, density, (0.25, 0.29, 1.1, 1.2), bands, marked, 100.0)
+
+    def test_ratio(self, psd: MomentSpectrum) -> None:
+        assert psd.ratio == 4.0
+        assert replace(psd, bands=psd.bands[:1]).ratio is None
+
+    def test_peaks(self, psd: MomentSpectrum) -> None:
+        assert psd.strongest_peak(1.0, 1.5) == 1.2
+        assert psd.strongest_peak(0.5, 0.6) is None
+        assert psd.nearest_peak(0.251) == 0.25
+        assert psd.nearest_peak(0.27) is None
+        assert psd.nearest_peak(0.26, nearness=0.1) == 0.25
+
+    def test_a_marked_mode_goes_before_the_strongest(self, psd: MomentSpectrum) -> None:
+        assert psd.peak_in(psd.bands[1]) == ("FA2", 1.1)
+        assert psd.peak_in(psd.bands[0])[0] is None
+
+
+class TestWording:
+    @pytest.mark.parametrize(
+        ("value", "text"),
+        [
+            (0.0, "0"),
+            (0.24296, "0.2430"),
+            (-2.859e7, f"{MINUS}2.859\u00a0{TIMES}\u00a010⁷"),
+            (1295.1, "1\u202f295"),
+            (1.24e-16, f"1.240\u00a0{TIMES}\u00a010⁻¹⁶"),
+            (99.996, "100.0"),
+            (float("inf"), "∞"),
+        ],
+    )
+    def test_numbers(self, value: float, text: str) -> None:
+        assert number(value) == text
+
+    @pytest.mark.parametrize(
+        ("ours", "reference", "unit", "text"),
+        [
+            (0.2744, 0.28, "Hz", "2.0 % below"),
+            (1.46, 1.44, "Hz", "1.4 % above"),
+            (0.28, 0.28, "Hz", "the same within 0.05 %"),
+            (-1.1, -1.0, "m", "10.0 % below"),
+            (11.42, 14.3, "%", "20.1 % below (2.9 percentage points)"),
+            (1296.0, 100.0, "", "13.0 times the published value"),
+            (10.0, 100.0, "", "0.100 times the published value"),
+            (0.5, 0.0, "m", "0.500 m apart"),
+        ],
+    )
+    def test_differences(self, ours: float, reference: float, unit: str, text: str) -> None:
+        assert difference(ours, reference, unit) == text
+
+    def test_modes(self) -> None:
+        assert mode_name("FA2") == "second fore-aft"
+        assert mode_name("T1") == "first torsion"
+        assert [is_mode(name) for name in ("SS12", "3P", "wave peak", "FA0")] == [True] + 3 * [
+            False
+        ]
+
+    def test_digits_as_given(self) -> None:
+        values = (0.236, 0.28, 0.27446, 100.0, -14.3)
+        assert [significant_digits(value) for value in values] == [3, 2, 5, 3, 3]
+
+    def test_lists(self) -> None:
+        assert [listing(list("abc"[:n])) for n in range(4)] == ["", "a", "a and b", "a, b and c"]
+
+    def test_band_names(self) -> None:
+        assert Band(1.0, 1.5, 0.0).name == f"1{DASH}1.5 Hz"
+
+
+def test_the_sea_is_named_with_all_that_acts(undamped: ow.Turbine) -> None:
+    """Level, stretching and current beside the waves; none of them where there is none."""
+    plain = ow.RegularWaves(2.0, 8.0)
+    system = ow.build(undamped, "clamped", plain, elements=4)
+    assert tables.describe_sea(system) == plain.in_words
+    current = ow.UniformCurrent(0.5, 90.0)
+    sea = ow.RegularWaves(2.0, 8.0, current=current, water_level=1.5, stretching="wheeler")
+    told = tables.describe_sea(ow.build(undamped, "clamped", sea, elements=4))
+    assert "mean level at z = 1.5 m" in told
+    assert "wheeler" in told
+    assert "0.5 m/s in the mean over depth, towards 90" in told
+    still = ow.build(undamped, "clamped", ow.StillWater(stretching="wheeler"), elements=4)
+    assert "wheeler" not in tables.describe_sea(still)
+
+
+def test_rounding_is_no_number(full: CaseReport) -> None:
+    """What is 1e-13 of the largest of its unit is shown as none; 1e-6 of it stays."""
+    assert full.histories is not None
+    data = full.histories.copy(deep=True)
+    moment = data["mudline_moment"]
+    largest = float(np.abs(moment.sel(direction="y")).max())
+    for size, shown in ((1e-13, False), (1e-6, True)):
+        moment.loc[{"direction": "x"}] = size * largest
+        rows = {
+            name: values for name, _, values in tables.statistics(replace(full, histories=data))
+        }
+        assert any(rows["side-side moment at the mudline (x)"]) == shown
