@@ -243,6 +243,8 @@ def _of_channel(
         return Difference(name, "shape", np.inf, 0.0, f"{one.shape} is {other.shape} now")
     if one.dtype.kind not in "fiub":
         return _same_text(name, str(one.tolist()), str(other.tolist()))
+    if np.any(np.isnan(one) != np.isnan(other)):
+        return Difference(name, "gaps", np.inf, 0.0, "not-a-numbers are at other places")
     if key == "segment_imbalance":
         return Difference(name, "imbalance", _imbalance(datasets[1], other), IMBALANCE)
     if key == "energy_balance":
@@ -257,7 +259,8 @@ def _of_channel(
     single = one.dtype == np.float32
     allowed = FLOAT32 if single else FLOAT64
     kind = str(one.dtype)
-    return Difference(name, kind, _off(one, other, _peak(one)), SCIPY if scipy else allowed)
+    finite = _peak(one[np.isfinite(one)])
+    return Difference(name, kind, _off(one, other, finite), SCIPY if scipy else allowed)
 
 
 def _imbalance(data: xr.Dataset, left: Array) -> float:
@@ -273,15 +276,23 @@ def _other_iterations(one: NDArray[Any], other: NDArray[Any]) -> float:
 
 
 def _off(one: NDArray[Any], other: NDArray[Any], scale: float) -> float:
-    """Largest difference over a scale; not-a-numbers must be at the same places."""
-    one, other = one.astype(float), other.astype(float)
-    if np.any(np.isnan(one) != np.isnan(other)):
-        return np.inf
-    largest = _peak(one - other)
+    """Largest difference over a scale; see :func:`_differences`."""
+    largest = _peak(_differences(one, other))
     return 0.0 if largest == 0 else largest / scale if scale > 0 else np.inf
 
 
+def _differences(one: NDArray[Any], other: NDArray[Any]) -> Array:
+    """Magnitudes; infinite where one is not finite and the other is not the same."""
+    one, other = one.astype(float), other.astype(float)
+    same = (one == other) | (np.isnan(one) & np.isnan(other))
+    both = np.isfinite(one) & np.isfinite(other)
+    off = np.where(same, 0.0, np.inf)
+    off[both] = np.abs(one[both] - other[both])
+    return off
+
+
 def _peak(values: NDArray[Any]) -> float:
+    """Largest magnitude of what is a number."""
     magnitude = np.abs(np.asarray(values, dtype=float))
     return float(np.max(magnitude, initial=0.0, where=~np.isnan(magnitude)))
 
@@ -345,10 +356,8 @@ def _compare_number(
 
 def _relative(one: Array, other: Array, peak: float) -> float:
     """Largest difference over the number itself, or over a share of the peak if that is more."""
-    if np.any(np.isnan(one) != np.isnan(other)):
-        return np.inf
     scale = np.maximum(np.abs(one), SMALL * peak)
-    difference = np.abs(one - other)
+    difference = _differences(one, other)
     off = np.divide(difference, scale, out=np.full_like(scale, np.inf), where=scale > 0)
     return _peak(np.where(difference == 0, 0.0, off))
 

@@ -48,6 +48,7 @@ def histories() -> xr.Dataset:
         "energy_worked": (("time", "source"), six[:, :1] * 1e6),
         "energy_balance": (("time",), wave * 10.0),
         "solver_step": (("time",), np.full(200, np.nan)),
+        "tuned_mass_travel": (("damper",), np.array([2.5, np.inf])),
         "solver_iterations": (("time",), np.full(200, 2)),
         "solver_residual": (("time",), np.full(200, 3e-6)),
     }
@@ -141,11 +142,15 @@ def test_the_same_results_pass(compared: Callable[..., Any]) -> None:
         ("energy_balance", first(2e-3), False),
         ("solver_residual", lambda x: x * 3, True),
         ("solver_residual", lambda x: x * 4, False),
+        ("solver_residual", lambda x: x * np.nan, False),
         ("solver_iterations", first(1), True),
         ("solver_iterations", first(2), False),
         ("solver_iterations", lambda x: x + 1, False),
         ("solver_step", lambda x: np.nan_to_num(x), False),
         ("solver_step", lambda x: x, True),
+        ("tuned_mass_travel", lambda x: x * [1 + 1e-6, 1], False),
+        ("tuned_mass_travel", lambda x: x * [1, -1], False),
+        ("tuned_mass_travel", lambda x: np.array([2.5, 3.0]), False),
     ],
 )
 def test_a_channel_is_held_to_its_own_bound(
