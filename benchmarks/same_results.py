@@ -1,7 +1,7 @@
 """Are the results of two revisions the same?
 
 Both solve all shipped cases, cases with every model switched on, what Python alone offers, every
-command on every foundation, and the gallery. What each writes is compared, channel by channel, by
+command on every foundation, and the gallery. Their output is compared channel by channel, with
 the bounds in ``result_differences.py``. It exits with status 1 if anything differs.
 
     python benchmarks/same_results.py --reference main~5
