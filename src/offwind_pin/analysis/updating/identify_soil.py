@@ -14,9 +14,10 @@ from offwind_pin.analysis.updating.definition_path import number_at, with_number
 from offwind_pin.analysis.updating.targets import Responses, Target
 from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError
+from offwind_pin.definitions.element import Element
 from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.loads.sea.sea import Sea
-from offwind_pin.structure.chain import Element, Elements
+from offwind_pin.structure.chain import Elements
 
 UNTOLD = 1 / np.sqrt(12)
 """Standard error of a combination, in shares of the parameters' ranges, from which on the data do

@@ -14,10 +14,11 @@ from offwind_pin.analysis.modal import ModalResult, modes
 from offwind_pin.analysis.static import StaticResult, static
 from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError
+from offwind_pin.definitions.element import Element
 from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.sea.sea import Sea
-from offwind_pin.structure.chain import Element, Elements
+from offwind_pin.structure.chain import Elements
 
 _MODES = 12
 """Modes computed, among which the labels of targets are sought."""
