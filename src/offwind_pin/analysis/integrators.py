@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import Any, Literal, NamedTuple, Protocol
 
 import numpy as np
-from scipy.integrate import solve_ivp
 
 from offwind_pin.analysis.static import load_scale
 from offwind_pin.base.definition import Array
@@ -243,6 +242,8 @@ class SciPyIVP:
     def cross(
         self, chain: CompiledChain, sections: Sections, state: MotionState, times: Array
     ) -> tuple[MotionState, Records]:
+        from scipy.integrate import solve_ivp
+
         equations = chain.equations()
         n = state.vectors.shape[1]
 
