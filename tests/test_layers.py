@@ -45,6 +45,11 @@ ALLOWED |= {room: set(ALLOWED) | set(ABOVE[:place]) for place, room in enumerate
 PINOCCHIO = {"structure", "dynamics"}
 """Rooms that may import Pinocchio."""
 
+NAMESPACES = {"sea", "soil", "wind"}
+"""Lists of public names; a stub beside each, which is imported name by name, may use every room."""
+
+ALLOWED |= {room: {"base"} for room in NAMESPACES}
+
 FACE = {"__init__", "__main__"}
 """Top-level files that may import every room."""
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from offwind_pin.analysis.static import load_scale
 from offwind_pin.base.definition import Array
+from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError
 from offwind_pin.dynamics.compiled.chain import CompiledChain, Run
 from offwind_pin.dynamics.compiled.recorder_arrays import Cuts, RecorderArrays, Segments
@@ -111,6 +112,8 @@ class GeneralizedAlpha:
     spectral_radius: float = 0.9
     relative_tolerance: float = 1e-5
     increment_tolerance: float = 1e-8
+
+    __repr__ = one_line
 
     def __post_init__(self) -> None:
         if not 0 <= self.spectral_radius <= 1:
@@ -226,6 +229,8 @@ class SciPyIVP:
     method: Literal["Radau", "BDF", "LSODA"] = "Radau"
     relative_tolerance: float = 1e-8
     absolute_tolerance: float = 1e-10
+
+    __repr__ = one_line
 
     def begin(self, chain: CompiledChain, q: Array, interval: float) -> MotionState:
         if len(chain.memory):

@@ -31,7 +31,7 @@ class Definition(BaseModel):
     """Base of every definition: frozen, unknown keys rejected, file keys carry units."""
 
     model_config = ConfigDict(
-        frozen=True, extra="forbid", defer_build=True, validate_by_name=True, validate_by_alias=True
+        frozen=True, extra="forbid", validate_by_name=True, validate_by_alias=True
     )
 
     source: str | None = Field(default=None, description="where the numbers come from")

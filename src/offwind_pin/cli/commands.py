@@ -48,9 +48,9 @@ def _complete_foundation(incomplete: str) -> list[str]:
 
 def _print_version(asked: bool) -> None:  # noqa: FBT001 (the value of the option)
     if asked:
-        from offwind_pin import __version__
+        import offwind_pin
 
-        print(f"offwind {__version__}")  # noqa: T201
+        print(f"offwind {offwind_pin.__version__}")  # noqa: T201
         raise typer.Exit
 
 

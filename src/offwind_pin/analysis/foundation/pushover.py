@@ -10,6 +10,7 @@ from offwind_pin.analysis.assemble import assemble
 from offwind_pin.analysis.foundation.pile_only import axis_jacobian, pile_only
 from offwind_pin.analysis.static import axis_rotation, load_scale
 from offwind_pin.base.definition import Array
+from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError, SolverError
 from offwind_pin.definitions.element import Element
 from offwind_pin.definitions.turbine import Turbine
@@ -52,6 +53,8 @@ class Pushover:
     moment: Array
     displacement: Array
     rotation: Array
+
+    __repr__ = one_line
 
 
 def pushover(
