@@ -37,7 +37,7 @@ ALLOWED: dict[str, set[str]] = {
 }
 """What each room may import of the package, from the bottom up."""
 
-ABOVE = ["display", "plots", "cases", "verification", "cli"]
+ABOVE = ["display", "plots", "cases", "viewer", "verification", "cli"]
 """Rooms above the analyses: each may import those, and the ones before it in this list."""
 
 ALLOWED |= {room: set(ALLOWED) | set(ABOVE[:place]) for place, room in enumerate(ABOVE)}

@@ -7,7 +7,7 @@
 ['SS1', 'FA1']
 
 The analyses and what a short script needs are here; the rest is in ``ow.sea``, ``ow.soil``,
-``ow.wind``, ``ow.signal`` and ``ow.plots``. Names are imported when they are first used.
+``ow.wind``, ``ow.signal``, ``ow.plots`` and ``ow.viewer``. Names are imported when first used.
 """
 
 from offwind_pin.base.public_names import public_names

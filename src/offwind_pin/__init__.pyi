@@ -1,6 +1,6 @@
 """The public names."""
 
-from offwind_pin import plots, sea, signal, soil, wind
+from offwind_pin import plots, sea, signal, soil, viewer, wind
 from offwind_pin.analysis.build import build
 from offwind_pin.analysis.integrators import GeneralizedAlpha, Integrator, SciPyIVP
 from offwind_pin.analysis.modal import ModalResult, modes
@@ -114,5 +114,6 @@ __all__ = [
     "simulate",
     "soil",
     "static",
+    "viewer",
     "wind",
 ]

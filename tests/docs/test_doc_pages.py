@@ -99,7 +99,7 @@ def test_reference_lists_every_public_name_once() -> None:
         )
         for name in re.findall(r"^\.\. auto(?:function|class):: (\w+)", names, re.M)
     ]
-    spaces = (ow, ow.sea, ow.signal, ow.soil, ow.wind, plots)
+    spaces = (ow, ow.sea, ow.signal, ow.soil, ow.viewer, ow.wind, plots)
     public = {
         id(thing): name
         for space in spaces

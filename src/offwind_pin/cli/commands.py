@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -292,6 +292,7 @@ def view_command(
     from offwind_pin.cli.progress import frames_progress
     from offwind_pin.display.viewer.stills import check_frames, check_still
     from offwind_pin.display.viewer.view import FPS, View
+    from offwind_pin.viewer import serve
 
     for option, path, example in (("--html", html, "view.html"), ("--still", still, "view.png")):
         if path is not None:
@@ -320,7 +321,7 @@ def view_command(
         film = f"ffmpeg -framerate {rate:g} -i {pattern} -pix_fmt yuv420p {name}.mp4"
         typer.echo(film)
     if (html, still, frames) == (None, None, None):
-        _serve(view.page(), port, browser=browser)
+        serve(view.page(), port, browser=browser)
 
 
 def _results_of(source: str, foundation: str, *, dry: bool) -> xr.Dataset:
@@ -346,21 +347,6 @@ def _results_of(source: str, foundation: str, *, dry: bool) -> xr.Dataset:
         )
     system = build(load_turbine(source), foundation, None if dry else StillWater())
     return modes_to_dataset(system, modes(system, min(10, system.nv)))
-
-
-def _serve(page: str, port: int, *, browser: bool) -> None:
-    """Serve a page on 127.0.0.1 until Ctrl-C."""
-    import webbrowser
-
-    from offwind_pin.display.viewer.serve import address, page_server
-
-    with page_server(page, port) as server:
-        url = address(server)
-        print(f"{url}   (Ctrl-C ends)", flush=True)  # noqa: T201
-        if browser:
-            webbrowser.open(url)
-        with suppress(KeyboardInterrupt):
-            server.serve_forever()
 
 
 @app.command()
