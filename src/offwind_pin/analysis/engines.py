@@ -9,9 +9,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Literal, get_args
+from typing import TYPE_CHECKING, get_args
 
 from offwind_pin.base.errors import InputError
+from offwind_pin.definitions.engine import Engine
 
 if TYPE_CHECKING:
     from offwind_pin.analysis.integrators import Integrator
@@ -22,8 +23,6 @@ if TYPE_CHECKING:
     from offwind_pin.dynamics.system import System
     from offwind_pin.loads.earthquake.ground_motion import GroundMotion
     from offwind_pin.loads.point_load import PointLoad
-
-Engine = Literal["compiled", "pinocchio"]
 
 
 def check_engine(engine: str) -> None:

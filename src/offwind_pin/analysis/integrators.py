@@ -8,11 +8,11 @@ from typing import Any, ClassVar, Literal, NamedTuple, Protocol
 
 import numpy as np
 
-from offwind_pin.analysis.engines import Engine
 from offwind_pin.analysis.static import load_scale
 from offwind_pin.base.definition import Array
 from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError
+from offwind_pin.definitions.engine import Engine
 from offwind_pin.dynamics.compiled.chain import CompiledChain
 from offwind_pin.dynamics.compiled.recorder_arrays import Cuts, RecorderArrays, Segments
 from offwind_pin.solvers.generalized_alpha import (

@@ -7,12 +7,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from offwind_pin.analysis.engines import Engine, check_engine, pencil
+from offwind_pin.analysis.engines import check_engine, pencil
 from offwind_pin.analysis.static import StaticResult, static
 from offwind_pin.base.definition import Array
 from offwind_pin.base.descriptions import cut, html_table
 from offwind_pin.base.errors import InputError
 from offwind_pin.base.mode_labels import FAMILIES, mode_name
+from offwind_pin.definitions.engine import Engine
 from offwind_pin.dynamics.system import System
 
 if TYPE_CHECKING:

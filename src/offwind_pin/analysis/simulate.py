@@ -13,7 +13,7 @@ import numpy as np
 import xarray as xr
 
 from offwind_pin.analysis.drawing_data import scenery, told
-from offwind_pin.analysis.engines import Engine, engine_of, moving_chain
+from offwind_pin.analysis.engines import engine_of, moving_chain
 from offwind_pin.analysis.integrators import (
     GeneralizedAlpha,
     Integrator,
@@ -27,6 +27,7 @@ from offwind_pin.analysis.static import static
 from offwind_pin.analysis.wave_checks import check_waves, wave_facts
 from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError, InterruptedSimulation, SolverError
+from offwind_pin.definitions.engine import Engine
 from offwind_pin.dynamics.acting_loads import smooth_ramp
 from offwind_pin.dynamics.compiled.chain import CompiledChain
 from offwind_pin.dynamics.system import System

@@ -7,10 +7,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from offwind_pin.analysis.engines import Engine, resting_chain
+from offwind_pin.analysis.engines import resting_chain
 from offwind_pin.base.definition import Array
 from offwind_pin.base.descriptions import html_table
 from offwind_pin.base.errors import InputError, SolverError
+from offwind_pin.definitions.engine import Engine
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.point_load import PointLoad
 from offwind_pin.loads.tower_top.load_history import constant_load

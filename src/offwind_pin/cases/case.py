@@ -7,7 +7,6 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field, model_validator
 
-from offwind_pin.analysis.engines import Engine
 from offwind_pin.analysis.foundation.registry import FOUNDATIONS
 from offwind_pin.base.definition import Definition, NonNegative, Number, Positive
 from offwind_pin.cases.schema.earthquake import Earthquake
@@ -16,6 +15,7 @@ from offwind_pin.cases.schema.tower_top import TowerTopLoadChoice
 from offwind_pin.cases.schema.tower_wind import TowerWindChoice
 from offwind_pin.cases.shipped import shipped_cases
 from offwind_pin.definitions.element import Element
+from offwind_pin.definitions.engine import Engine
 from offwind_pin.definitions.reader import find_definition, read_model
 from offwind_pin.structure.chain import MOST_ELEMENTS
 

@@ -13,11 +13,11 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from offwind_pin.analysis.engines import Engine
 from offwind_pin.analysis.modal import ModalResult
 from offwind_pin.analysis.simulate import simulate
 from offwind_pin.base.definition import Array
 from offwind_pin.cases.case import Identification
+from offwind_pin.definitions.engine import Engine
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.tower_top.load_history import LoadHistory
 from offwind_pin.signal.modal_identification.identify import IdentifiedModes, operational_modes

@@ -13,11 +13,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from offwind_pin.analysis.engines import Engine
 from offwind_pin.cases.shipped import shipped_cases
 from offwind_pin.cli.exit_codes import EXIT_SYSTEM
 from offwind_pin.cli.foundation_names import FOUNDATION_NAMES
 from offwind_pin.definitions.element import Element
+from offwind_pin.definitions.engine import Engine
 from offwind_pin.definitions.shipped import shipped_turbines
 
 if TYPE_CHECKING:

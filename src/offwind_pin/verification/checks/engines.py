@@ -7,13 +7,13 @@ from functools import cache
 import numpy as np
 
 from offwind_pin.analysis.build import build
-from offwind_pin.analysis.engines import Engine
 from offwind_pin.analysis.foundation.registry import FOUNDATIONS
 from offwind_pin.analysis.integrators import GeneralizedAlpha
 from offwind_pin.analysis.modal import modes
 from offwind_pin.analysis.simulate import simulate
 from offwind_pin.analysis.static import static
 from offwind_pin.base.definition import Array
+from offwind_pin.definitions.engine import Engine
 from offwind_pin.definitions.reader import load_turbine
 from offwind_pin.dynamics.compiled.chain import CompiledChain
 from offwind_pin.dynamics.system import System
