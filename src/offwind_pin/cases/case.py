@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field, model_validator
 
+from offwind_pin.analysis.engines import Engine
 from offwind_pin.analysis.foundation.registry import FOUNDATIONS
 from offwind_pin.base.definition import Definition, NonNegative, Number, Positive
 from offwind_pin.cases.schema.earthquake import Earthquake
@@ -37,9 +38,11 @@ class StaticAnalysis(Definition):
 
     settle : for how long the undeformed structure is followed in time as it comes to rest under
         gravity, beside the direct solution; or None
+    engine : what evaluates the equations of motion
     """
 
     kind: Literal["static"]
+    engine: Engine = "compiled"
     compare_with: FoundationName | None = None
     settle: Annotated[Positive, Field(ge=10, le=1e5)] | None = Field(alias="settle_s", default=None)
 
@@ -71,17 +74,23 @@ class ModalAnalysis(Definition):
     """Natural modes about the static state under gravity.
 
     identify : whether the fore-aft modes are taken out of accelerations as well
+    engine : what evaluates the equations of motion
     """
 
     kind: Literal["modes"]
+    engine: Engine = "compiled"
     count: Annotated[int, Field(ge=1, le=50)] = 8
     identify: Identification | None = None
 
 
 class TransientAnalysis(Definition):
-    """Time histories, and the spectrum of the fore-aft moment at the mudline after the ramp."""
+    """Time histories, and the spectrum of the fore-aft moment at the mudline after the ramp.
+
+    engine : what evaluates the equations of motion
+    """
 
     kind: Literal["transient"]
+    engine: Engine = "compiled"
     duration: Annotated[Positive, Field(le=1e5)] = Field(alias="duration_s")
     ramp: NonNegative = Field(alias="ramp_s")
     dt: Annotated[Positive, Field(le=1)] = Field(alias="dt_s")

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from offwind_pin.analysis.engines import Engine
 from offwind_pin.cases.shipped import shipped_cases
 from offwind_pin.cli.exit_codes import EXIT_SYSTEM
 from offwind_pin.cli.foundation_names import FOUNDATION_NAMES
@@ -83,6 +84,9 @@ ElementsOption = Annotated[int | None, typer.Option(help="Multibody beam element
 ElementOption = Annotated[
     Element, typer.Option(help="euler_bernoulli, or timoshenko for elements that shear as well.")
 ]
+EngineOption = Annotated[
+    Engine, typer.Option(help="What evaluates the equations: compiled, or pinocchio.")
+]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")]
 
 
@@ -108,6 +112,7 @@ def modes_command(
     elements: ElementsOption = None,
     element: ElementOption = "euler_bernoulli",
     count: Annotated[int | None, typer.Option(help="Number of modes, by default 8.")] = None,
+    engine: EngineOption = "compiled",
     as_json: JsonOption = False,  # noqa: FBT002
 ) -> None:
     """Natural frequencies about the static state, in still water."""
@@ -120,13 +125,14 @@ def modes_command(
 
     sea = None if dry else StillWater()
     system = build(load_turbine(turbine), foundation, sea, elements=elements, element=element)
-    result = modes(system, min(8, system.nv) if count is None else count)
+    result = modes(system, min(8, system.nv) if count is None else count, engine=engine)
     rows = summarise_modes(result)
     if as_json:
         about: dict[str, Any] = {
             "turbine": system.turbine.name,
             "foundation": foundation,
             "dry": dry,
+            "engine": engine,
         }
         about |= {"surrogate": system.foundation.surrogate}
         _print_json(about | {"structural_damping": summarise_damping(system), "modes": rows})
@@ -145,6 +151,7 @@ def static_command(
     ] = None,
     elements: ElementsOption = None,
     element: ElementOption = "euler_bernoulli",
+    engine: EngineOption = "compiled",
     as_json: JsonOption = False,  # noqa: FBT002
 ) -> None:
     """Static equilibrium under gravity and, if given, a load at the yaw bearing."""
@@ -156,9 +163,9 @@ def static_command(
 
     load = None if tower_top_load is None else _numbers(tower_top_load, "--tower-top-load")
     system = build(load_turbine(turbine), foundation, elements=elements, element=element)
-    summary = summarise_static(static(system, load))
+    summary = summarise_static(static(system, load, engine=engine))
     if as_json:
-        about = {"turbine": system.turbine.name, "foundation": foundation}
+        about = {"turbine": system.turbine.name, "foundation": foundation, "engine": engine}
         _print_json(about | {"surrogate": system.foundation.surrogate} | summary)
         return
     print_values(f"{foundation}, static", summary)
