@@ -21,11 +21,11 @@ from numpy.typing import NDArray
 
 import offwind_pin as ow
 from offwind_pin.analysis.foundation.registry import FOUNDATIONS
+from offwind_pin.definitions.element import Element
 from offwind_pin.definitions.engine import Engine
 from offwind_pin.definitions.reader import shipped_turbines
 from offwind_pin.dynamics.compiled.chain import CompiledChain
 from offwind_pin.dynamics.reference.section_loads import section_loads
-from offwind_pin.structure.chain import Element
 
 Array = NDArray[np.float64]
 

@@ -118,6 +118,7 @@ class GeneralizedAlpha:
     increment_tolerance: float = 1e-8
 
     engines: ClassVar[tuple[Engine, ...]] = ("compiled", "pinocchio")
+
     __repr__ = one_line
 
     def __post_init__(self) -> None:
@@ -231,6 +232,7 @@ class SciPyIVP:
     absolute_tolerance: float = 1e-10
 
     engines: ClassVar[tuple[Engine, ...]] = ("pinocchio",)
+
     __repr__ = one_line
 
     def begin(self, chain: CompiledChain, q: Array, interval: float) -> MotionState:
