@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from offwind_pin.definitions.element import Element
 from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.sea.sea import Sea
 from offwind_pin.loads.soil.foundation import Foundation
-from offwind_pin.structure.chain import Element, Elements, Stiffness, build_chain
+from offwind_pin.structure.chain import Elements, Stiffness, build_chain
 
 
 def assemble(

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from typing import Any, ClassVar, Literal, NamedTuple, Protocol
 
 import numpy as np
-from scipy.integrate import solve_ivp
 
 from offwind_pin.analysis.engines import Engine
 from offwind_pin.analysis.static import load_scale
 from offwind_pin.base.definition import Array
+from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError
 from offwind_pin.dynamics.compiled.chain import CompiledChain
 from offwind_pin.dynamics.compiled.recorder_arrays import Cuts, RecorderArrays, Segments
@@ -118,6 +118,7 @@ class GeneralizedAlpha:
     increment_tolerance: float = 1e-8
 
     engines: ClassVar[tuple[Engine, ...]] = ("compiled", "pinocchio")
+    __repr__ = one_line
 
     def __post_init__(self) -> None:
         if not 0 <= self.spectral_radius <= 1:
@@ -230,6 +231,7 @@ class SciPyIVP:
     absolute_tolerance: float = 1e-10
 
     engines: ClassVar[tuple[Engine, ...]] = ("pinocchio",)
+    __repr__ = one_line
 
     def begin(self, chain: CompiledChain, q: Array, interval: float) -> MotionState:
         if len(chain.memory):
@@ -246,6 +248,8 @@ class SciPyIVP:
     def cross(
         self, chain: CompiledChain, sections: Sections, state: MotionState, times: Array
     ) -> tuple[MotionState, Records]:
+        from scipy.integrate import solve_ivp
+
         equations = chain.equations()
         n = state.vectors.shape[1]
 

@@ -10,8 +10,9 @@ import numpy as np
 from offwind_pin.analysis.engines import Engine, check_engine, pencil
 from offwind_pin.analysis.static import StaticResult, static
 from offwind_pin.base.definition import Array
+from offwind_pin.base.descriptions import cut, html_table
 from offwind_pin.base.errors import InputError
-from offwind_pin.base.mode_labels import FAMILIES
+from offwind_pin.base.mode_labels import FAMILIES, mode_name
 from offwind_pin.dynamics.system import System
 
 if TYPE_CHECKING:
@@ -59,6 +60,28 @@ class ModalResult:
     vector: Array
     shape_peak_height_ratio: Array
     engine: Engine = "compiled"
+
+    def __repr__(self) -> str:
+        found = [
+            f"{label} {frequency:.4g} Hz"
+            for label, frequency in zip(self.label, self.frequency_hz, strict=True)
+        ]
+        return cut(f"ModalResult({', '.join(found)})")
+
+    def _repr_html_(self) -> str:
+        """A table for notebooks."""
+        rows = [
+            (label, mode_name(label), f"{f:.4f}", f"{100 * zeta:.2f}", f"{peak:.2f}")
+            for label, f, zeta, peak in zip(
+                self.label,
+                self.frequency_hz,
+                self.damping_ratio,
+                self.shape_peak_height_ratio,
+                strict=True,
+            )
+        ]
+        columns = ("mode", "", "frequency (Hz)", "damping ratio (%)", "peak over height")
+        return html_table("Natural modes", columns, rows)
 
     def index(self, label: str) -> int:
         """Position of a label.

@@ -9,6 +9,7 @@ import numpy as np
 
 from offwind_pin.analysis.engines import Engine, resting_chain
 from offwind_pin.base.definition import Array
+from offwind_pin.base.descriptions import html_table
 from offwind_pin.base.errors import InputError, SolverError
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.point_load import PointLoad
@@ -49,6 +50,29 @@ class StaticResult:
     memory: Array = field(repr=False)
     loads: tuple[PointLoad, ...] = field(repr=False)
     engine: Engine = "compiled"
+
+    def __repr__(self) -> str:
+        x, z = self.tower_top_displacement[[0, 2]]
+        moment = self.mudline_load[4] / 1e6
+        return (
+            f"StaticResult(tower top at x {x:.4g} m, z {z:.4g} m, mudline moment My {moment:.4g} "
+            f"MN m, {self.iterations} iterations)"
+        )
+
+    def _repr_html_(self) -> str:
+        """A table for notebooks."""
+        rows = [
+            (
+                f"{z:.2f}",
+                *(f"{value:.4g}" for value in (*u[:3], *np.degrees(turn[:2]), *load / 1e6)),
+            )
+            for z, u, turn, load in zip(
+                self.height, self.displacement, self.rotation, self.section_load, strict=True
+            )
+        ]
+        columns = ("z (m)", "x (m)", "y (m)", "z displacement (m)", "rx (deg)", "ry (deg)")
+        loads = ("Fx (MN)", "Fy (MN)", "Fz (MN)", "Mx (MN m)", "My (MN m)", "Mz (MN m)")
+        return html_table(repr(self), columns + loads, rows[::-1])
 
     @property
     def tower_top_displacement(self) -> Array:

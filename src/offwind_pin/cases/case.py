@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from importlib import resources
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -15,8 +14,10 @@ from offwind_pin.cases.schema.earthquake import Earthquake
 from offwind_pin.cases.schema.sea import SeaChoice
 from offwind_pin.cases.schema.tower_top import TowerTopLoadChoice
 from offwind_pin.cases.schema.tower_wind import TowerWindChoice
+from offwind_pin.cases.shipped import shipped_cases
+from offwind_pin.definitions.element import Element
 from offwind_pin.definitions.reader import find_definition, read_model
-from offwind_pin.structure.chain import MOST_ELEMENTS, Element
+from offwind_pin.structure.chain import MOST_ELEMENTS
 
 
 def _known_foundation(name: str) -> str:
@@ -165,13 +166,6 @@ class Case(Definition):
                 "out, or use analysis kind transient"
             )
         return self
-
-
-def shipped_cases() -> list[str]:
-    """Names of the cases that come with the package."""
-    folder = resources.files("offwind_pin.cases") / "oc6_phase2"
-    names = [entry.name for entry in folder.iterdir() if entry.name.endswith(".yaml")]
-    return sorted(f"oc6-{name.removesuffix('.yaml')}" for name in names)
 
 
 def load_case(name_or_path: str | Path) -> tuple[Case, Path]:

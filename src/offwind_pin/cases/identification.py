@@ -20,8 +20,8 @@ from offwind_pin.base.definition import Array
 from offwind_pin.cases.case import Identification
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.tower_top.load_history import LoadHistory
-from offwind_pin.signal.operational_modes.identify import IdentifiedModes, operational_modes
-from offwind_pin.signal.operational_modes.modal_assurance import modal_assurance
+from offwind_pin.signal.modal_identification.identify import IdentifiedModes, operational_modes
+from offwind_pin.signal.modal_identification.modal_assurance import modal_assurance
 
 Progress = Callable[[float, float], None]
 

@@ -54,8 +54,8 @@ from offwind_pin.loads.wind.synthetic_thrust import operate_rotor
 from offwind_pin.results.blocks import time_reached
 from offwind_pin.results.dataset import versions
 from offwind_pin.results.states import modal_dataset, static_dataset
+from offwind_pin.signal.modal_identification.identify import IdentifiedModes
 from offwind_pin.signal.moment_spectrum import MomentSpectrum, moment_spectrum
-from offwind_pin.signal.operational_modes.identify import IdentifiedModes
 from offwind_pin.structure.urdf import definition_hash
 
 Progress = Callable[[float, float], None]

@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from offwind_pin.base.definition import Array
+from offwind_pin.base.descriptions import html_table
 from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.loads.earthquake.ground_motion import GroundMotion
 from offwind_pin.loads.point_load import PointLoad
@@ -42,6 +43,30 @@ class System:
     joint_stiffness: Array
     joint_damping: Array
     damping_ratios: dict[str, float]
+
+    def __repr__(self) -> str:
+        sea = "dry" if self.sea is None else type(self.sea).__name__
+        return (
+            f"System({self.turbine.name}, {self.foundation.name}, {sea}, "
+            f"{self.chain.elements} elements, {self.nv} degrees of freedom)"
+        )
+
+    def _repr_html_(self) -> str:
+        """A table for notebooks."""
+        rows = [
+            ("foundation", self.foundation.name),
+            ("sea", "dry" if self.sea is None else repr(self.sea)),
+            ("elements", self.chain.elements),
+            ("degrees of freedom", self.nv),
+            ("base (m)", f"{self.chain.base:.2f}"),
+            ("yaw bearing (m)", f"{self.chain.top:.2f}"),
+            ("mass (t)", f"{self.chain.mass / 1e3:.1f}"),
+            *(
+                (f"damping ratio of {label} (%)", f"{100 * ratio:.3g}")
+                for label, ratio in self.damping_ratios.items()
+            ),
+        ]
+        return html_table(f"System of {self.turbine.name}", (), rows)
 
     @property
     def nv(self) -> int:
