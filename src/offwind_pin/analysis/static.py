@@ -100,7 +100,7 @@ def static(
     if tower_top_load is not None:
         acting.append(constant_load(system.chain.top, tower_top_load))
     chain = CompiledChain(system, acting, ramp_time=np.inf)
-    row = chain.rows(np.zeros(1))[0]
+    time_inputs = chain.time_inputs(np.zeros(1))[0]
     rest = np.zeros(system.nv)
     scale = load_scale(system)
     if after is not None:
@@ -110,11 +110,11 @@ def static(
         chain.memory = after.memory
 
     def correction(q: Array, residual: Array) -> Array:
-        chain.factorise(row, q, rest, rest, 0.0, 0.0)
+        chain.factorise(time_inputs, q, rest, rest, 0.0, 0.0)
         return chain.correction(residual)
 
     result = newton(
-        lambda q: chain.residual(row, q, rest, rest),
+        lambda q: chain.residual(time_inputs, q, rest, rest),
         correction,
         rest if after is None else after.q,
         scale=scale,
@@ -128,7 +128,7 @@ def static(
             joint=joint,
             residual=size,
         )
-    chain.factorise(row, result.x, rest, rest, 0.0, 0.0)
+    chain.factorise(time_inputs, result.x, rest, rest, 0.0, 0.0)
     if chain.unstable_directions():
         joint, size = chain.worst_joint(result.x)
         raise SolverError(
@@ -137,14 +137,15 @@ def static(
             joint=joint,
             residual=float(np.max(np.abs(result.residual))),
         )
-    chain.commit(row, result.x)
-    state = chain.record(chain.sections(system.chain.boundary), row, result.x, rest, rest)
+    chain.commit(time_inputs, result.x)
+    cuts, _ = chain.sections(system.chain.boundary)
+    displacement, section_load = chain.at_cuts(cuts, time_inputs, result.x, rest, rest)
     return StaticResult(
         q=result.x,
         height=system.chain.boundary,
-        displacement=state.displacement[0],
+        displacement=displacement,
         rotation=_axis_rotation(chain, system.chain.boundary),
-        section_load=state.section_load[0],
+        section_load=section_load,
         iterations=result.iterations,
         residual=float(np.max(np.abs(result.residual))) / scale,
         mudline=system.turbine.site.mudline,
@@ -165,7 +166,7 @@ def load_scale(system: System) -> float:
 def _axis_rotation(chain: CompiledChain, height: Array) -> Array:
     """(m, 3) rotation of the axis at heights (m,), of the state last evaluated."""
     body = chain.system.chain.body_at(height)
-    return axis_rotation(chain.arrays.rotation[body, :, 2])
+    return axis_rotation(chain.data.rotation[body, :, 2])
 
 
 def axis_rotation(axis: Array) -> Array:
