@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 from numba.extending import overload
@@ -37,7 +37,7 @@ from offwind_pin.dynamics.compiled.recorder import (
 )
 from offwind_pin.dynamics.compiled.recording import at_cuts, note_kernel, take_note
 from offwind_pin.dynamics.compiled.residual import commit, evaluate, evaluate_kernel
-from offwind_pin.dynamics.reference.equations import Equations
+from offwind_pin.dynamics.resting_axis import RestingAxis
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.earthquake.ground_motion import GroundMotion
 from offwind_pin.loads.point_load import PointLoad, nothing_stored
@@ -46,6 +46,9 @@ from offwind_pin.loads.root_restraint import as_kernel_restraint
 from offwind_pin.solvers import generalized_alpha
 from offwind_pin.solvers.generalized_alpha import residual as evaluated
 from offwind_pin.structure.chain import NDArrayInt
+
+if TYPE_CHECKING:
+    from offwind_pin.dynamics.reference.equations import Equations
 
 
 class Run(Record):
@@ -154,18 +157,45 @@ class CompiledChain:
     def memory(self, past: Array) -> None:
         self.state.memory[:] = past
 
-    def commit(self, time_inputs: Array, q: Array) -> None:
-        """End a step in a state at rest."""
+    def at_rest(self, time_inputs: Array, q: Array, height: Array) -> RestingAxis:
+        """Axis and section loads of a state of rest, which soil and foundation then remember."""
         rest = np.zeros_like(q)
         self._evaluate(time_inputs, q, rest, rest)
         if self._committing:
             with self.running():
                 commit(self.model, self.data, self.state, time_inputs)
+            self._evaluate(time_inputs, q, rest, rest)
+        cuts = make_cuts(self.system, self.model, np.array(height, dtype=float))
+        displacement, acceleration = np.zeros((2, len(height), 3))
+        load = np.zeros((len(height), 6))
+        at_cuts(self.model, self.data, cuts, displacement, acceleration, load)
+        return RestingAxis(displacement, self.data.rotation[cuts.body, :, 2], load)
 
     @property
     def _committing(self) -> bool:
         """Whether anything keeps of its past."""
         return bool(np.any(self.model.commits)) or self.model.restraint_commit != 0
+
+    def start(self, q: Array) -> Array:
+        """(6, nv) vectors of generalised-alpha at time 0, at rest at joint displacements."""
+        time_inputs = self.time_inputs(np.zeros(1))[0]
+        return generalized_alpha.start(self, time_inputs, q, np.zeros_like(q))
+
+    def advance(
+        self,
+        recorder: Recorder,
+        method: generalized_alpha.Method,
+        vectors: Array,
+        instants: Array,
+        last: Array,
+    ) -> tuple[int, int, float]:
+        """Generalised-alpha's steps to the instants (t,) in s, recorded; see :func:`advance`."""
+        time_inputs = self.time_inputs(instants)
+        with self.running():
+            result: tuple[int, int, float] = generalized_alpha.compiled_advance(
+                self.run(recorder), method, vectors, time_inputs, last
+            )
+        return result
 
     def unstable_directions(self) -> int:
         """Number of motions away from the factorised static state that need no work.
@@ -188,16 +218,6 @@ class CompiledChain:
         """Cuts at heights (m,) in m for section loads and motions, and segments between them."""
         cuts = make_cuts(self.system, self.model, np.array(height, dtype=float))
         return cuts, make_segments(self.system, self.model, cuts, segments)
-
-    def at_cuts(
-        self, cuts: Cuts, time_inputs: Array, q: Array, v: Array, a: Array
-    ) -> tuple[Array, Array]:
-        """Displacement (m, 3) of cuts in a state, and section loads (m, 6) there."""
-        self._evaluate(time_inputs, q, v, a)
-        displacement, acceleration = np.zeros((2, len(cuts.height), 3))
-        load = np.zeros((len(cuts.height), 6))
-        at_cuts(self.model, self.data, cuts, displacement, acceleration, load)
-        return displacement, load
 
     def recorder(
         self, sections: tuple[Cuts, Segments], every: int = 1, records: int = 1
@@ -253,15 +273,18 @@ class CompiledChain:
         v: Array,
         a: Array,
         scale: float = 1.0,
+        iterations: int = 0,
     ) -> None:
         """Let a recorder take note of a state; the residual is over a scale."""
         self._evaluate(time_inputs, q, v, a)
         size = float(np.max(np.abs(self.data.residual))) / scale
         with self.running():
-            take_note(self.model, self.data, self.state, recorder, time_inputs, 0, size)
+            take_note(self.model, self.data, self.state, recorder, time_inputs, iterations, size)
 
     def equations(self) -> Equations:
         """The same equations of motion by Pinocchio."""
+        from offwind_pin.dynamics.reference.equations import Equations
+
         return Equations(self.system, self._given, self.ramp_time, self.memory, self.ground_motion)
 
     def worst_joint(self, residual: Array) -> tuple[str, float]:
