@@ -129,7 +129,7 @@ def static(
     if tower_top_load is not None:
         acting.append(constant_load(system.chain.top, tower_top_load))
     chain = resting_chain(system, acting, engine)
-    row = chain.rows(np.zeros(1))[0]
+    time_inputs = chain.time_inputs(np.zeros(1))[0]
     rest = np.zeros(system.nv)
     scale = load_scale(system)
     if after is not None:
@@ -139,11 +139,11 @@ def static(
         chain.memory = after.memory
 
     def correction(q: Array, residual: Array) -> Array:
-        chain.factorise(row, q, rest, rest, 0.0, 0.0)
+        chain.factorise(time_inputs, q, rest, rest, 0.0, 0.0)
         return chain.correction(residual)
 
     result = newton(
-        lambda q: chain.residual(row, q, rest, rest),
+        lambda q: chain.residual(time_inputs, q, rest, rest),
         correction,
         rest if after is None else after.q,
         scale=scale,
@@ -157,7 +157,7 @@ def static(
             joint=joint,
             residual=size,
         )
-    chain.factorise(row, result.x, rest, rest, 0.0, 0.0)
+    chain.factorise(time_inputs, result.x, rest, rest, 0.0, 0.0)
     if chain.unstable_directions():
         joint, size = chain.worst_joint(result.x)
         raise SolverError(
@@ -166,7 +166,7 @@ def static(
             joint=joint,
             residual=float(np.max(np.abs(result.residual))),
         )
-    state = chain.at_rest(row, result.x, system.chain.boundary)
+    state = chain.at_rest(time_inputs, result.x, system.chain.boundary)
     return StaticResult(
         q=result.x,
         height=system.chain.boundary,

@@ -190,7 +190,7 @@ class HistoryWriter:
         if self.dampers:
             channels["tuned_mass_displacement"] = (
                 ("time", "damper", "across"),
-                block["slip"],
+                block["stroke"],
                 {
                     "long_name": "displacement of a tuned mass damper's mass against its carrier",
                     "units": "m",
