@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,6 +14,10 @@ from offwind_pin.base.mode_labels import FAMILIES
 from offwind_pin.dynamics.reference.equations import Equations
 from offwind_pin.dynamics.system import System
 from offwind_pin.solvers.eigen import natural_modes
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
 
 _FAMILY_OF_JOINT = {"px": "FA", "ry": "FA", "py": "SS", "rx": "SS", "rz": "T", "pz": "V"}
 _MOSTLY = 0.5
@@ -68,6 +73,53 @@ class ModalResult:
             )
         return self.label.index(label)
 
+    def to_dataset(self) -> xr.Dataset:
+        """The modes as a labelled dataset."""
+        from offwind_pin.results.states import modal_dataset
+
+        return modal_dataset(
+            self.height,
+            self.label,
+            frequency_hz=self.frequency_hz,
+            damping_ratio=self.damping_ratio,
+            shape=self.shape,
+            mass_normalised=self.mass_normalised,
+            participation=self.participation,
+            families=list(FAMILIES),
+            damper_share=self.damper_share,
+            vector=self.vector,
+            peak_height_ratio=self.shape_peak_height_ratio,
+        )
+
+    @staticmethod
+    def from_dataset(data: xr.Dataset) -> ModalResult:
+        """Modes read back from :meth:`to_dataset`."""
+        return ModalResult(
+            frequency_hz=data["frequency"].to_numpy(),
+            damping_ratio=data["damping_ratio"].to_numpy(),
+            label=[str(label) for label in data["mode"].to_numpy()],
+            participation=data["participation"].to_numpy(),
+            damper_share=data["damper_share"].to_numpy(),
+            height=data["height"].to_numpy(),
+            shape=data["shape"].to_numpy(),
+            mass_normalised=data["mass_normalised"].to_numpy(),
+            vector=data["joint_shape"].to_numpy(),
+            shape_peak_height_ratio=data["peak_height_ratio"].to_numpy(),
+        )
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """Table with a row for each mode: frequency, damping, peak and participations."""
+        import pandas as pd
+
+        columns = {
+            "frequency_hz": self.frequency_hz,
+            "damping_ratio": self.damping_ratio,
+            "shape_peak_height_ratio": self.shape_peak_height_ratio,
+            **{f"share_{name}": self.participation[:, i] for i, name in enumerate(FAMILIES)},
+            "share_dampers": self.damper_share,
+        }
+        return pd.DataFrame(columns, index=pd.Index(self.label, name="mode"))
+
     def direction(self, label: str) -> str:
         """FA, SS, T or V: how the axis moves in a mode, one of tuned mass dampers as well."""
         return list(FAMILIES)[int(np.argmax(self.participation[self.index(label)]))]
@@ -93,7 +145,7 @@ def modes(system: System, n: int = 8, about: StaticResult | None = None) -> Moda
         allowed = f"a static state of this system, with {system.nv} degrees of freedom"
         raise InputError("about", f"one with {len(state.q)}", allowed, "Solve statics anew.")
     rest = np.zeros(system.nv)
-    equations = system.equations(state.loads, np.inf, state.memory)
+    equations = system.equations(state.acting_loads(), np.inf, state.memory)
     stiffness, damping = equations.tangents(0.0, state.q, rest)
     # One mode more than asked for, so that no pair of equal frequency is cut in two; and more where
     # dampers split modes, so that labels do not depend on how many are asked for.

@@ -18,6 +18,7 @@ from rich.console import Console
 from rich.table import Table
 
 from offwind_pin.analysis.build import build
+from offwind_pin.analysis.drawing_data import modes_dataset
 from offwind_pin.analysis.foundation.registry import FOUNDATIONS
 from offwind_pin.analysis.foundation.study.study import soil_overview
 from offwind_pin.analysis.modal import modes
@@ -28,7 +29,8 @@ from offwind_pin.base.mode_labels import mode_name
 from offwind_pin.base.whole_files import write_text
 from offwind_pin.cases.case import load_case, shipped_cases
 from offwind_pin.cases.output_directory import check_writable
-from offwind_pin.cases.run import modes_to_dataset, run_case
+from offwind_pin.cases.report import report_again
+from offwind_pin.cases.run import run_case
 from offwind_pin.cases.summary import summarise_damping, summarise_modes, summarise_static
 from offwind_pin.cases.turbine_overview import overview
 from offwind_pin.cli.exit_codes import EXIT_SYSTEM
@@ -188,12 +190,15 @@ def run(
         str, typer.Argument(help=f"Shipped name ({', '.join(shipped_cases())}) or a YAML file.")
     ],
     out: Annotated[Path, typer.Option(help="Directory for the results.")],
+    report: Annotated[  # noqa: FBT002
+        bool, typer.Option(help="Write report.html; offwind report makes it later.")
+    ] = True,
     as_json: JsonOption = False,  # noqa: FBT002
 ) -> None:
-    """Solve a load case; write summary.json, results.nc and report.html."""
+    """Solve a load case; write results.nc, report.html and summary.json."""
     definition, folder = load_case(case)
     with simulation_progress() as progress:
-        summary = run_case(definition, folder, out, progress=progress)
+        summary = run_case(definition, out, folder=folder, report=report, progress=progress)
     if as_json:
         _print_json(summary)
         return
@@ -203,7 +208,21 @@ def run(
             table.add_row(key, f"{value:.6g}" if isinstance(value, float) else str(value))
     console = Console()
     console.print(table)
-    console.print(f"Report: {out / 'report.html'}", soft_wrap=True)
+    if report:
+        console.print(f"Report: {out / 'report.html'}", soft_wrap=True)
+
+
+@app.command("report")
+def report_command(
+    directory: Annotated[Path, typer.Argument(help="Output directory of offwind run.")],
+) -> None:
+    """Write report.html again from the results in a directory, without solving."""
+    if not directory.is_dir():
+        raise InputError(
+            "DIR", str(directory), "an existing directory", "Name the --out of offwind run."
+        )
+    check_writable(directory)
+    Console().print(f"Wrote {report_again(directory)}", soft_wrap=True)
 
 
 @app.command("animate")
@@ -282,7 +301,7 @@ def _results_of(source: str, foundation: str, *, dry: bool) -> xr.Dataset:
     """Results read from a file; of a turbine its modes, the only thing that is solved here."""
     path = Path(source)
     if path.is_dir() or path.suffix == ".nc":
-        return open_results(path)
+        return open_results(path).to_dataset()
     if not path.exists() and source not in shipped_turbines():
         raise InputError(
             "SOURCE",
@@ -292,7 +311,7 @@ def _results_of(source: str, foundation: str, *, dry: bool) -> xr.Dataset:
             "Check the path; offwind run makes results.",
         )
     system = build(load_turbine(source), foundation, None if dry else StillWater())
-    return modes_to_dataset(system, modes(system, min(10, system.nv)))
+    return modes_dataset(system, modes(system, min(10, system.nv)))
 
 
 def _serve(page: str, port: int, *, browser: bool) -> None:
