@@ -26,6 +26,8 @@ _FULL_PRECISION = {
 
 _CHUNK = 256
 """Instants that a file holds, and a reader reads, at once."""
+_SMALL = 500
+"""Numbers; a compressed variable of fewer takes more room than an uncompressed one."""
 _CACHE_BYTES = 2**20
 """Memory for the chunks of each variable while a file is written; the default is 16 times that."""
 
@@ -97,7 +99,7 @@ def _encoding(data: xr.Dataset) -> dict[Any, dict[str, Any]]:
             # Left to itself the file has one chunk for each instant.
             how["chunksizes"] = [_CHUNK if d == "time" else data.sizes[d] for d in variable.dims]
         if name in data.data_vars:
-            if variable.ndim:
+            if variable.size > _SMALL or "time" in variable.dims:
                 how |= {"zlib": True, "complevel": 1}
             if "time" in variable.dims and variable.ndim >= 3 and name not in _FULL_PRECISION:
                 how["dtype"] = "float32"
