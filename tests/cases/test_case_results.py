@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import re
 import shutil
 from collections.abc import Iterator
 from pathlib import Path
@@ -18,7 +17,6 @@ from helpers.earthquakes import shaking
 import offwind_pin as ow
 from offwind_pin.analysis.drawing_data import static_dataset
 from offwind_pin.base.whole_files import write_netcdf
-from offwind_pin.cases import report as case_report
 from offwind_pin.cases import run as case_run
 from offwind_pin.cases.report import report, report_again
 from offwind_pin.cases.run import run_case
@@ -357,7 +355,8 @@ class TestStates:
         (springs, *_) = system.foundation.soil
         with open_case(runs["transient"]) as tree:
             soil = required(tree, "soil").load()
-        assert part(open_case(runs["rotor"]), "soil") is None
+        with open_case(runs["rotor"]) as tree:
+            assert part(tree, "soil") is None
         reached = soil["reached"].to_numpy()
         assert 0 < reached.max() < 0.1
         curve = [
@@ -367,9 +366,9 @@ class TestStates:
         np.testing.assert_allclose(curve, springs.curves.resistance(reached), rtol=2e-3)
 
 
-def test_the_interrupted_page_names_the_cause(runs: dict[str, Path]) -> None:
-    """Negative control of the check on incomplete pages: a finished one says nothing of it."""
+def test_a_finished_page_is_not_called_incomplete(runs: dict[str, Path]) -> None:
+    """Negative control of the checks on the page of a run that was interrupted."""
     page = (runs["transient"] / "report.html").read_text()
     assert "Not complete." not in page
-    assert re.search(r'id="psd"', page)
-    assert case_report.report is report
+    assert "complete</dd>" in page
+    assert 'id="psd"' in page

@@ -48,7 +48,7 @@ class Results:
     def with_groups(self, **groups: xr.Dataset) -> Results:
         return replace(self, groups=self.groups | groups)
 
-    def with_attributes(self, name: str, **attributes: Any) -> Results:
+    def with_attributes(self, name: str, /, **attributes: Any) -> Results:
         return self.with_groups(**{name: self.groups[name].assign_attrs(attributes)})
 
 

@@ -234,12 +234,12 @@ def soil_dataset(soil: SoilSprings, mudline: float, reached: Array | None = None
         y = np.concatenate([y, np.geomspace(end, _FULL_END, 40)[1:]])
     resistance = np.array([soil.curves.resistance(np.full(len(depth), value)) for value in y])
     variables = {
-        "height": ("node", soil.height, "undeformed height of the node", "m"),
-        "depth": ("node", depth, "depth of the node below the mudline", "m"),
-        "resistance": (("node", "y"), resistance.T, "lateral soil resistance", "N/m"),
+        "height": ("spring", soil.height, "undeformed height of the node", "m"),
+        "depth": ("spring", depth, "depth of the node below the mudline", "m"),
+        "resistance": (("spring", "y"), resistance.T, "lateral soil resistance", "N/m"),
     }
     if reached is not None:
-        variables["reached"] = ("node", reached, "largest lateral displacement reached", "m")
+        variables["reached"] = ("spring", reached, "largest lateral displacement reached", "m")
     return xr.Dataset(
         {
             name: (dims, values, {"long_name": text, "units": unit})
