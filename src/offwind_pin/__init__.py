@@ -22,6 +22,7 @@ from offwind_pin.analysis.tower_drag import tower_drag
 from offwind_pin.analysis.updating.identify_soil import Identification, Parameter, identify_soil
 from offwind_pin.analysis.updating.targets import DeflectionTarget, FrequencyTarget, ShapeTarget
 from offwind_pin.base.errors import InputError, InterruptedSimulation, OffwindError, SolverError
+from offwind_pin.cases.run import run_case
 from offwind_pin.definitions.reader import load_turbine, shipped_turbines
 from offwind_pin.definitions.rotor_disc import rotor_disc
 from offwind_pin.definitions.tuned_mass_damper import DampedAbsorber, den_hartog
@@ -55,6 +56,7 @@ from offwind_pin.loads.wind.rotor_thrust import RotorThrust
 from offwind_pin.loads.wind.synthetic_thrust import SyntheticWind
 from offwind_pin.loads.wind.thrust_table import thrust_curve
 from offwind_pin.loads.wind.tower_drag import TowerWind
+from offwind_pin.results.reading import open_results
 from offwind_pin.signal.operational_modes.accelerations import Accelerations, read_accelerations
 from offwind_pin.signal.operational_modes.cross_spectra import CrossSpectra, cross_spectral_matrix
 from offwind_pin.signal.operational_modes.free_decay import FreeDecay, free_decay
@@ -127,12 +129,14 @@ __all__ = [
     "load_turbine",
     "modal_assurance",
     "modes",
+    "open_results",
     "operational_modes",
     "pile_only",
     "pushover",
     "read_accelerations",
     "read_load_history",
     "rotor_disc",
+    "run_case",
     "shipped_turbines",
     "simulate",
     "soil_overview",

@@ -299,6 +299,17 @@ class TestRunning:
         with xr.open_dataset(tmp_path / "old" / "results.nc") as data:
             assert data.identical(state)
 
+    @pytest.mark.usefixtures("nothing_solved")
+    def test_modes_of_a_time_history_are_shown(
+        self, runs: dict[str, Path], tmp_path: Path, offwind: Any
+    ) -> None:
+        """The viewer reads them from their group; the history is what it shows by itself."""
+        html = tmp_path / "a.html"
+        for words, title in ((["--modes", "FA1,SS1"], "Natural modes"), ([], "soil on the pile")):
+            code, _, err = offwind("view", str(runs["transient"]), "--html", str(html), *words)
+            assert code == 0, err
+            assert title in html.read_text()
+
 
 class TestStates:
     def test_static_states_come_back(self, distributed_wet: ow.System, tmp_path: Path) -> None:

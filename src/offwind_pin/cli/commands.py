@@ -51,6 +51,7 @@ from offwind_pin.display.viewer.view import FPS, View
 from offwind_pin.formats.urdf_folder import export_urdf
 from offwind_pin.loads.sea.sea import StillWater
 from offwind_pin.results.reading import open_results
+from offwind_pin.results.tree import part
 from offwind_pin.structure.chain import Element
 from offwind_pin.verification.ledger import choose, verify
 from offwind_pin.verification.page import verification_page
@@ -277,7 +278,8 @@ def view_command(
         check_frames(frames)
         check_writable(frames.parent)
     labels = None if mode_list is None else [part.strip().upper() for part in mode_list.split(",")]
-    view = View(_results_of(source, foundation, dry=dry), start, duration, labels)
+    results = _results_of(source, foundation, dry=dry, modal=labels is not None)
+    view = View(results, start, duration, labels)
     if html is not None:
         write_text(html, view.page())
         Console().print(f"Wrote {html}", soft_wrap=True)
@@ -297,11 +299,16 @@ def view_command(
         _serve(view.page(), port, browser=browser)
 
 
-def _results_of(source: str, foundation: str, *, dry: bool) -> xr.Dataset:
-    """Results read from a file; of a turbine its modes, the only thing that is solved here."""
+def _results_of(source: str, foundation: str, *, dry: bool, modal: bool) -> xr.Dataset:
+    """Results read from a file; of a turbine its modes, the only thing that is solved here.
+
+    modal : whether modes are asked for, which a time history may have in a group
+    """
     path = Path(source)
     if path.is_dir() or path.suffix == ".nc":
-        return open_results(path).to_dataset()
+        tree = open_results(path)
+        found = part(tree, "modes") if modal else None
+        return tree.to_dataset() if found is None else found
     if not path.exists() and source not in shipped_turbines():
         raise InputError(
             "SOURCE",
