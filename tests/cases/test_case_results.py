@@ -20,8 +20,7 @@ from offwind_pin.base.whole_files import write_netcdf
 from offwind_pin.cases import run as case_run
 from offwind_pin.cases.report import report, report_again
 from offwind_pin.cases.run import run_case
-from offwind_pin.cases.summary import summary
-from offwind_pin.cli import commands
+from offwind_pin.cases.tree_summary import summary
 from offwind_pin.display.figures import results as plots
 from offwind_pin.results.reading import open_case, open_results
 from offwind_pin.results.tree import part, parts, required
@@ -113,11 +112,14 @@ def nothing_solved(monkeypatch: pytest.MonkeyPatch) -> None:
     def refuse(*_: Any, **__: Any) -> None:
         raise AssertionError("something was solved")
 
-    for module in (commands, case_run):
-        for name in ("build", "modes", "static", "simulate", "run_case", "load_turbine"):
-            monkeypatch.setattr(module, name, refuse, raising=False)
-    monkeypatch.setattr("offwind_pin.analysis.assemble.assemble", refuse)
-    monkeypatch.setattr("offwind_pin.dynamics.compiled.chain.CompiledChain.__init__", refuse)
+    for name in (
+        "analysis.assemble.assemble",
+        "analysis.build.build",
+        "cases.run.run_case",
+        "definitions.reader.load_turbine",
+        "dynamics.compiled.chain.CompiledChain.__init__",
+    ):
+        monkeypatch.setattr(f"offwind_pin.{name}", refuse)
 
 
 def nodes(tree: xr.DataTree) -> Iterator[tuple[str, xr.Dataset]]:

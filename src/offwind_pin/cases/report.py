@@ -7,7 +7,7 @@ from pathlib import Path
 import xarray as xr
 
 from offwind_pin.base.whole_files import write_text
-from offwind_pin.cases.summary import summary
+from offwind_pin.cases.tree_summary import summary
 from offwind_pin.display.report.case_report import render_report
 from offwind_pin.results.reading import open_case
 

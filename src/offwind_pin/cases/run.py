@@ -41,8 +41,8 @@ from offwind_pin.cases.output_directory import check_writable
 from offwind_pin.cases.report import report as render
 from offwind_pin.cases.schema.earthquake import Shaking
 from offwind_pin.cases.settling import settle
-from offwind_pin.cases.summary import summary, summary_head
 from offwind_pin.cases.tower_top import tower_top, wind_dataset
+from offwind_pin.cases.tree_summary import summary, summary_head
 from offwind_pin.definitions.reader import load_turbine
 from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.dynamics.system import System
@@ -156,11 +156,12 @@ def _solve_static(
     folder: Path,
     progress: Progress | None,
 ) -> _Solved:
-    state = static(system)
+    state = static(system, engine=analysis.engine)
     groups: Groups = {"soil": _soil(system, state)}
     if analysis.compare_with is not None:
         other = _build(case, turbine, analysis.compare_with, folder)
-        groups[f"static/{analysis.compare_with}"] = static_dataset(other, static(other))
+        compared = static(other, engine=analysis.engine)
+        groups[f"static/{analysis.compare_with}"] = static_dataset(other, compared)
     simulated = 0.0
     if analysis.settle is not None:
         settling = settle(system, state, analysis.settle, progress)
@@ -172,8 +173,8 @@ def _solve_static(
 def _solve_modes(
     case: Case, system: System, analysis: ModalAnalysis, progress: Progress | None
 ) -> _Solved:
-    state = static(system)
-    result = modes(system, analysis.count, state)
+    state = static(system, engine=analysis.engine)
+    result = modes(system, analysis.count, state, engine=analysis.engine)
     groups: Groups = {
         f"static/{case.foundation}": static_dataset(system, state),
         "soil": _soil(system, state),
@@ -208,14 +209,15 @@ def _solve_transient(
         [*top.loads, *wind],
         ramp=analysis.ramp,
         ground_motion=None if shaking is None else shaking.motion,
+        engine=analysis.engine,
         output_dt=analysis.output_dt,
         directory=out,
         provenance={"case": case.name, "seed": case.seed, **top.provenance},
         progress=None if progress is None else lambda now: progress(now, analysis.duration),
     )
     with data:
-        state = static(system, top.mean, loads=wind)
-        result = modes(system, min(8, system.nv), state)
+        state = static(system, top.mean, loads=wind, engine=analysis.engine)
+        result = modes(system, min(8, system.nv), state, engine=analysis.engine)
         marked = _marked(case, result, top.blade_passing_frequency)
         spectrum = moment_spectrum(data, analysis.psd_segment, marked)
         groups: Groups = {

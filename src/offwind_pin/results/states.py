@@ -31,6 +31,7 @@ def static_dataset(
     iterations: int,
     residual: float,
     mudline: float,
+    engine: str,
     loads: Sequence[str],
 ) -> xr.Dataset:
     """A static state over height.
@@ -43,6 +44,7 @@ def static_dataset(
     joint_displacement : (nv,) array, m and rad
     memory : (k,) array, state of soil and foundation
     mudline : float, m
+    engine : that evaluated the equations
     loads : names of the applied loads
     """
     along = ("height", "direction")
@@ -67,6 +69,7 @@ def static_dataset(
             "title": TITLES["static"],
             **versions(),
             "mudline_m": mudline,
+            "engine": engine,
             "iterations": iterations,
             "residual": residual,
             "loads": json.dumps(list(loads)),
@@ -87,6 +90,7 @@ def modal_dataset(
     damper_share: Array,
     vector: Array,
     peak_height_ratio: Array,
+    engine: str,
 ) -> xr.Dataset:
     """Natural modes over height.
 
@@ -99,6 +103,7 @@ def modal_dataset(
     participation : (n, f) array, 1; of f families of joints
     damper_share, peak_height_ratio : (n,) arrays, 1
     vector : (nv, n) array
+    engine : that evaluated the equations
     """
     along = ("mode", "height", "motion")
     about = {
@@ -147,7 +152,7 @@ def modal_dataset(
             "motion": ("motion", _MOTIONS, {"long_name": "displacement or rotation of the axis"}),
             "family": ("family", list(families), {"long_name": "family of joints"}),
         },
-        {"title": TITLES["modes"], **versions(), "frame": FRAME},
+        {"title": TITLES["modes"], **versions(), "frame": FRAME, "engine": engine},
     )
 
 

@@ -7,7 +7,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from offwind_pin.display.figures.style import BLUE, FULL_WIDTH, MUTED, VERMILLION, styled
-from offwind_pin.signal.operational_modes.identify import OperationalModes
+from offwind_pin.signal.modal_identification.identify import OperationalModes
 
 _BAND = (0.05, 3.0)
 """Hz that are shown."""
