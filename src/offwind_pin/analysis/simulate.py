@@ -12,7 +12,7 @@ from typing import Any, Literal, get_args
 import numpy as np
 import xarray as xr
 
-from offwind_pin.analysis.drawing_data import scenery, told
+from offwind_pin.analysis.drawing_data import drawing_attributes, drawing_data
 from offwind_pin.analysis.engines import engine_of, moving_chain
 from offwind_pin.analysis.integrators import (
     GeneralizedAlpha,
@@ -167,7 +167,7 @@ def simulate(
         [load.name for load in chain.loads],
         chain.stores,
         attributes,
-        scenery(system),
+        drawing_data(system),
         _ground_levels(system, ground_motion),
         {mass.name: mass.travel for mass in system.chain.sliding_mass},
         chain.soil.height,
@@ -394,7 +394,7 @@ def _provenance(
         "sea": repr(system.sea) if system.sea else "dry",
         "wave_seed": -1 if system.sea is None else system.sea.wave_seed,
         **_told_of_waves(system),
-        **told(system),
+        **drawing_attributes(system),
         "tower_top_load_origin": "; ".join(history.origin for history in origins) or "none",
         "surrogates": " | ".join(text for text in surrogates if text) or "none",
         "elements": system.chain.elements,
