@@ -57,7 +57,7 @@ def case(folder: Path, earthquake: dict[str, Any], **changes: Any) -> Path:
 def test_case_to_report(folder: Path) -> None:
     """Scaled, turned into y, later, corrected: in the results, in the summary and in the page."""
     how = {"scale": 0.5, "direction_deg": 90.0, "start_s": 3.0, "baseline": "parabolic"}
-    run_case(*load_case(case(folder, RECORD | how)), folder / "out")
+    run_case(load_case(case(folder, RECORD | how)), folder / "out")
     motion = shaking(12.0, 0.02)
     record = np.zeros((len(motion.time), 3))
     record[:, 1], record[:, 2] = 0.5 * motion.acceleration[:, [0, 2]].T
@@ -96,7 +96,7 @@ def test_levels_by_depth(folder: Path) -> None:
         RECORD | {"z_m": -20.0, "components": ["x", "z"]},
         RECORD | {"z_m": -75.0, "file": "deep.txt"},
     ]
-    run_case(*load_case(case(folder, {"levels": levels, "start_s": 1.0})), folder / "out")
+    run_case(load_case(case(folder, {"levels": levels, "start_s": 1.0})), folder / "out")
     with xr.open_dataset(folder / "out" / "results.nc") as data:
         assert data["level"].to_numpy().tolist() == [-75.0, -20.0]
         ground = data["ground_acceleration"].sel(direction="x").to_numpy()
@@ -116,9 +116,9 @@ def test_at2_files(folder: Path) -> None:
     values = shaking(12.0, 0.02).acceleration[:, 0] / 9.80665
     head = f"A\nB\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS= {len(values)}, DT= .0200 SEC\n"
     (folder / "a.AT2").write_text(head + "\n".join(f"{v:.9e}" for v in values))
-    earthquake = load_case(case(folder, {"at2": {"y": "a.AT2"}, "scale": 2.0}))[0].earthquake
+    earthquake = load_case(case(folder, {"at2": {"y": "a.AT2"}, "scale": 2.0})).earthquake
     assert earthquake is not None
-    motion, cautions = earthquake.ground_motion(folder)
+    motion, cautions = earthquake.ground_motion()
     assert np.abs(motion.acceleration).max(axis=0) == pytest.approx([0, 6.0, 0], rel=1e-6)
     assert motion.time[-1] == pytest.approx(12.0)
     assert cautions == []
@@ -164,7 +164,7 @@ def test_bad_earthquakes(fault: str, folder: Path) -> None:
     earthquake, told = FAULTS[fault]
     np.savetxt(folder / "short.txt", [[0, 0.1, 0.1], [1, 0.2, 0]])
     with pytest.raises(ow.InputError) as error:
-        run_case(*load_case(case(folder, earthquake)), folder / "out")
+        run_case(load_case(case(folder, earthquake)), folder / "out")
     assert all(text in str(error.value) for text in told)
     assert not (folder / "out" / "summary.json").exists()
     assert not (folder / "out" / "results.nc").exists()

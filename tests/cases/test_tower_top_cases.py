@@ -41,7 +41,7 @@ ROTOR = {"kind": "rotor", "wind_speed_m_per_s": 9.0, "turbulence_class": "B"}
 
 def run(folder: Path, load: dict[str, Any]) -> dict[str, Any]:
     (folder / "case.yaml").write_text(yaml.safe_dump(CASE | {"tower_top_load": load}))
-    run_case(*load_case(folder / "case.yaml"), folder / "out")
+    run_case(load_case(folder / "case.yaml"), folder / "out")
     summary: dict[str, Any] = json.loads((folder / "out" / "summary.json").read_text())
     return summary
 

@@ -10,7 +10,6 @@ from typing import Any
 
 import xarray as xr
 
-from offwind_pin.analysis.build import build
 from offwind_pin.analysis.drawing_data import outline, told
 from offwind_pin.analysis.modal import ModalResult, modes
 from offwind_pin.analysis.settling import Settling
@@ -26,14 +25,13 @@ from offwind_pin.cases.case import (
     StaticAnalysis,
     TransientAnalysis,
 )
+from offwind_pin.cases.earthquake import Shaking
 from offwind_pin.cases.identification import (
     identified_variables,
     identify,
     summarise_identified,
 )
 from offwind_pin.cases.output_directory import check_writable
-from offwind_pin.cases.schema.earthquake import Shaking
-from offwind_pin.cases.schema.tower_top import SyntheticTowerTopLoad
 from offwind_pin.cases.settling import settle, settling_variables, summarise_settling
 from offwind_pin.cases.summary import (
     summarise_dampers,
@@ -43,20 +41,19 @@ from offwind_pin.cases.summary import (
     summarise_spectrum,
     summarise_static,
 )
-from offwind_pin.cases.tower_top import generator, rotor_of, tower_top
-from offwind_pin.definitions.reader import load_turbine
+from offwind_pin.cases.tower_top import rotor_of, tower_top
 from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.display.report.case_report import write_report
 from offwind_pin.display.report.contents import CaseReport, Published, WindDescription
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.earthquake.description import EarthquakeDescription
-from offwind_pin.loads.wind.synthetic_thrust import operate_rotor
+from offwind_pin.loads.sea.sea import Sea
+from offwind_pin.loads.wind.synthetic_thrust import SyntheticWind, operate_rotor
 from offwind_pin.results.blocks import time_reached
 from offwind_pin.results.dataset import versions
 from offwind_pin.results.states import modal_dataset, static_dataset
 from offwind_pin.signal.moment_spectrum import MomentSpectrum, moment_spectrum
 from offwind_pin.signal.operational_modes.identify import IdentifiedModes
-from offwind_pin.structure.urdf import definition_hash
 
 Progress = Callable[[float, float], None]
 
@@ -77,9 +74,7 @@ class CaseResult:
     settling: Settling | None = None
 
 
-def run_case(
-    case: Case, folder: Path, out: Path, *, progress: Progress | None = None
-) -> dict[str, Any]:
+def run_case(case: Case, out: Path, *, progress: Progress | None = None) -> dict[str, Any]:
     """Solve a case and write ``summary.json``, ``results.nc`` and ``report.html``.
 
     Everything the user gave is checked before anything is written. A transient case that was
@@ -87,7 +82,6 @@ def run_case(
 
     Parameters
     ----------
-    folder : where relative paths inside the case start
     out : directory for the results, made if it is not there
     progress : called with simulated time and duration in s
 
@@ -101,11 +95,11 @@ def run_case(
     SolverError, InterruptedSimulation : the solve stopped; the results so far are in ``out``
     """
     check_writable(out)
-    turbine = _turbine(case, folder)
+    turbine = case.turbine
     begun = time_reached(out)
     clock = time.perf_counter()
     try:
-        result = _solve(case, turbine, folder, out, progress)
+        result = _solve(case, turbine, out, progress)
     except (SolverError, InterruptedSimulation) as stopped:
         _write_partial(case, out, stopped, time.perf_counter() - clock, begun)
         raise
@@ -116,29 +110,26 @@ def run_case(
     return summary
 
 
-def _solve(
-    case: Case, turbine: Turbine, folder: Path, out: Path, progress: Progress | None
-) -> CaseResult:
+def _solve(case: Case, turbine: Turbine, out: Path, progress: Progress | None) -> CaseResult:
     if isinstance(case.analysis, StaticAnalysis):
-        return _solve_static(case, turbine, case.analysis, folder, progress)
+        return _solve_static(case, turbine, case.analysis, progress)
     if isinstance(case.analysis, ModalAnalysis):
-        return _solve_modes(case, turbine, case.analysis, folder, progress)
-    return _solve_transient(case, turbine, case.analysis, folder, out, progress)
+        return _solve_modes(case, turbine, case.analysis, progress)
+    return _solve_transient(case, turbine, case.analysis, out, progress)
 
 
 def _solve_static(
     case: Case,
     turbine: Turbine,
     analysis: StaticAnalysis,
-    folder: Path,
     progress: Progress | None,
 ) -> CaseResult:
-    system = _build(case, turbine, case.foundation, folder)
+    system = case.build()
     state = static(system)
     summary = summarise_static(state) | {"foundation": case.foundation}
     statics: dict[str, StaticResult] = {case.foundation: state}
     if analysis.compare_with is not None:
-        other = static(_build(case, turbine, analysis.compare_with, folder))
+        other = static(case.build(analysis.compare_with))
         reference = float(other.tower_top_displacement[0])
         statics[analysis.compare_with] = other
         summary[f"{analysis.compare_with}_tower_top_x_m"] = reference
@@ -158,10 +149,9 @@ def _solve_modes(
     case: Case,
     turbine: Turbine,
     analysis: ModalAnalysis,
-    folder: Path,
     progress: Progress | None,
 ) -> CaseResult:
-    system = _build(case, turbine, case.foundation, folder)
+    system = case.build()
     state = static(system)
     result = modes(system, analysis.count, state)
     table = summarise_modes(result)
@@ -185,17 +175,16 @@ def _solve_transient(
     case: Case,
     turbine: Turbine,
     analysis: TransientAnalysis,
-    folder: Path,
     out: Path,
     progress: Progress | None,
 ) -> CaseResult:
-    system = _build(case, turbine, case.foundation, folder, analysis.duration)
-    top = tower_top(case, turbine, analysis, folder)
+    system = case.build()
+    top = tower_top(case, turbine, analysis)
     shaking = None
     if case.earthquake is not None:
         gravity = turbine.site.gravity
-        shaking = Shaking.of(case.earthquake, folder, gravity, analysis.dt, analysis.duration)
-    wind = [] if case.tower_wind is None else [tower_drag(system, case.tower_wind.wind())]
+        shaking = Shaking.of(case.earthquake, gravity, analysis.dt, analysis.duration)
+    wind = [] if case.tower_wind is None else [tower_drag(system, case.tower_wind)]
     data = simulate(
         system,
         analysis.duration,
@@ -210,7 +199,7 @@ def _solve_transient(
     )
     state = static(system, top.mean, loads=wind)
     result = modes(system, min(8, system.nv), state)
-    marked = _marked(case, result, top.blade_passing_frequency)
+    marked = _marked(system.sea, result, top.blade_passing_frequency)
     spectrum = moment_spectrum(data, analysis.psd_segment, marked)
     summary = summarise_spectrum(data, spectrum)
     summary |= {
@@ -246,22 +235,11 @@ def _frequencies(result: ModalResult) -> dict[str, float]:
     }
 
 
-def _build(
-    case: Case, turbine: Turbine, foundation: str, folder: Path, duration: float = 0.0
-) -> System:
-    """The case's system on a foundation; only distributed springs have a pile to divide."""
-    elements = case.elements
-    if isinstance(elements, dict) and foundation != "distributed_springs":
-        elements = {region: count for region, count in elements.items() if region != "pile"}
-    sea = case.sea.sea(case.seed, duration, folder)
-    return build(turbine, foundation, sea, elements=elements, element=case.element)
-
-
-def _marked(case: Case, result: ModalResult, passing: float | None) -> dict[str, float]:
+def _marked(sea: Sea | None, result: ModalResult, passing: float | None) -> dict[str, float]:
     """Frequencies in Hz that a reader looks for in the spectrum, by name."""
     marked = {}
-    if case.sea.marked_frequency is not None:
-        marked["wave"] = case.sea.marked_frequency
+    if sea is not None and sea.marked_frequency is not None:
+        marked["wave"] = sea.marked_frequency
     for label in ("FA1", "FA2"):
         if label in result.label:
             marked[label] = float(result.frequency_hz[result.index(label)])
@@ -300,7 +278,7 @@ def modes_to_dataset(system: System, result: ModalResult) -> xr.Dataset:
 def _attributes(system: System) -> dict[str, Any]:
     return {
         "turbine": system.turbine.name,
-        "definition_sha256": definition_hash(system.turbine),
+        "definition_sha256": system.turbine.content_hash,
         "foundation": system.foundation.name,
         "sea": repr(system.sea) if system.sea else "dry",
         "surrogates": system.foundation.surrogate or "none",
@@ -353,10 +331,10 @@ def _write(case: Case, turbine: Turbine, out: Path, result: CaseResult) -> None:
 
 def _wind_report(case: Case, turbine: Turbine) -> WindDescription | None:
     load = case.tower_top_load
-    if not isinstance(load, SyntheticTowerTopLoad):
+    if not isinstance(load, SyntheticWind):
         return None
     rotor = operate_rotor(rotor_of(turbine), load.wind_speed, load.blade_passing_frequency)
-    return WindDescription(generator(case, load), rotor)
+    return WindDescription(load.completed(case.seed), rotor)
 
 
 def _write_partial(
@@ -374,12 +352,6 @@ def _write_partial(
     reached = 0.0 if stopped.results is None else float(stopped.results["time"][-1])
     head = _head(case, status, wall, reached, begun)
     write_json(out / "summary.json", head | {"message": str(stopped)})
-
-
-def _turbine(case: Case, folder: Path) -> Turbine:
-    """The case's turbine; a relative path starts at the case file."""
-    local = folder / case.turbine
-    return load_turbine(local if local.is_file() else case.turbine)
 
 
 def _ours(result: CaseResult, key: str) -> float | None:

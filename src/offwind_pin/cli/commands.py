@@ -191,9 +191,9 @@ def run(
     as_json: JsonOption = False,  # noqa: FBT002
 ) -> None:
     """Solve a load case; write summary.json, results.nc and report.html."""
-    definition, folder = load_case(case)
+    definition = load_case(case)
     with simulation_progress() as progress:
-        summary = run_case(definition, folder, out, progress=progress)
+        summary = run_case(definition, out, progress=progress)
     if as_json:
         _print_json(summary)
         return

@@ -126,7 +126,7 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Path:
             }
         )
     )
-    run_case(*load_case(case), folder / "out")
+    run_case(load_case(case), folder / "out")
     return folder / "out"
 
 

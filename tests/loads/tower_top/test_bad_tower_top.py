@@ -104,7 +104,7 @@ def folder(tmp_path: Path) -> Path:
 
 def run(folder: Path, **changes: Any) -> dict[str, Any]:
     (folder / "case.yaml").write_text(yaml.safe_dump(CASE | changes))
-    return run_case(*load_case(folder / "case.yaml"), folder / "out")
+    return run_case(load_case(folder / "case.yaml"), folder / "out")
 
 
 @pytest.mark.parametrize("fault", LOAD_FAULTS)

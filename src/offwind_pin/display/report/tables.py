@@ -24,9 +24,7 @@ from offwind_pin.display.wording import (
 )
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.sea.current import mean_velocity
-from offwind_pin.loads.sea.sea import StillWater
 from offwind_pin.loads.wind.synthetic_thrust import AIR_DENSITY
-from offwind_pin.structure.urdf import definition_hash
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -237,7 +235,7 @@ def describe_sea(system: System) -> str:
     told = [sea.in_words]
     if sea.water_level:
         told.append(f"mean level at z = {sea.water_level:g} m")
-    if sea.stretching != "none" and not isinstance(sea, StillWater):
+    if sea.stretching != "none":
         told.append(f"stretched to the surface ({sea.stretching})")
     if sea.current is not None:
         x, y, _ = mean_velocity(sea.current, sea.water_level - system.turbine.site.mudline)
@@ -373,7 +371,7 @@ def provenance(report: CaseReport) -> list[tuple[str, str]]:
     system = report.system
     known: dict[str, Any] = {
         "turbine": system.turbine.name,
-        "definition_sha256": definition_hash(system.turbine),
+        "definition_sha256": system.turbine.content_hash,
         "foundation": system.foundation.name,
         "elements": system.chain.elements,
         "offwind_pin_version": metadata.version("offwind-pin"),
