@@ -14,10 +14,10 @@ import xarray as xr
 from numpy.testing import assert_allclose
 
 import offwind_pin as ow
-from offwind_pin import cli
 from offwind_pin.base.mode_labels import mode_family
 from offwind_pin.base.whole_files import write_netcdf
 from offwind_pin.cases.run import modes_to_dataset, static_to_dataset
+from offwind_pin.cli import commands
 from offwind_pin.display.viewer import stills as pictures
 from offwind_pin.display.viewer.history_frames import frames
 from offwind_pin.display.viewer.history_page import ARROW_SHARE, TOP_COLOUR
@@ -57,7 +57,7 @@ def nothing_solved(monkeypatch: pytest.MonkeyPatch) -> None:
         raise AssertionError("something was solved")
 
     for name in ("build", "modes", "static", "run_case", "load_turbine"):
-        monkeypatch.setattr(cli, name, refuse)
+        monkeypatch.setattr(commands, name, refuse)
 
 
 class TestShapes:
