@@ -222,14 +222,14 @@ def test_tower_top_loads_of_the_docs(written: Path) -> None:
     loads = [block for block in blocks if list(block) == ["tower_top_load"]]
     kinds = []
     for load in loads:
-        case = Case.model_validate(base | load)
+        case = case_of(base | load, written)
         assert case.tower_top_load is not None
         kinds.append(case.tower_top_load.kind)
     assert kinds == ["file", "openfast_output", "openfast_output", "file", "rotor"]
     short = {"duration_s": 30.0, "ramp_s": 5.0, "dt_s": 0.05, "output_dt_s": 0.1}
     analysis = base["analysis"] | short | {"psd_segment_s": 10.0}
     change = {"turbine": "oc3_phase2", "foundation": "clamped", "sea": {"kind": "still_water"}}
-    case = Case.model_validate(base | loads[-1] | change | {"analysis": analysis})
+    case = case_of(base | loads[-1] | change | {"analysis": analysis}, written)
     summary = run_case(case, written / "out")
     assert summary["mean_thrust_N"] == pytest.approx(485.2e3, rel=0.01)
     assert {row["label"]: row["ratio"] for row in summary["aerodynamic_damping"]}["FA1"] > 0.03

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import inspect
 import json
 from collections.abc import Iterator
 from pathlib import Path
@@ -21,6 +22,7 @@ from pydantic import (
     ValidatorFunctionWrapHandler,
     WrapValidator,
 )
+from pydantic.fields import FieldInfo
 
 from offwind_pin.base.errors import InputError
 from offwind_pin.base.validation import input_error
@@ -116,6 +118,7 @@ class Definition(BaseModel):
                 if name not in inherited and not field.kw_only
             )
             cls._positional = (*cls._positional, *own)
+        cls.__signature__ = _signature(cls.model_fields, cls._positional)
 
     def __init__(self, *values: Any, **named: Any) -> None:
         """Make and check a definition.
@@ -197,6 +200,26 @@ class _Brief:
         digest = hashlib.sha256(text.encode()).hexdigest()[:12]
         size = f"{len(self._value)} in " if isinstance(self._value, tuple | dict | str) else ""
         return f"<{size}{type(self._value).__name__}, SHA-256 {digest}>"
+
+
+def _signature(fields: dict[str, FieldInfo], positional: tuple[str, ...]) -> inspect.Signature:
+    """How a definition is called; pydantic would name fields as files do."""
+    parameters: list[inspect.Parameter] = []
+    needed = False  # a positional argument before one without a default has none itself
+    for name in reversed(positional):
+        needed = needed or fields[name].is_required()
+        kind: Any = inspect.Parameter.POSITIONAL_OR_KEYWORD
+        parameters.insert(0, _parameter(name, fields[name], kind, needed=needed))
+    for name, field in fields.items():
+        if name not in positional:
+            kind = inspect.Parameter.KEYWORD_ONLY
+            parameters.append(_parameter(name, field, kind, needed=field.is_required()))
+    return inspect.Signature(parameters)
+
+
+def _parameter(name: str, field: FieldInfo, kind: Any, *, needed: bool) -> inspect.Parameter:
+    default = inspect.Parameter.empty if needed else field.get_default(call_default_factory=True)
+    return inspect.Parameter(name, kind, default=default, annotation=field.annotation)
 
 
 def _fields(base: type) -> dict[str, Any]:

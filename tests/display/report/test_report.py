@@ -481,8 +481,6 @@ def test_the_sea_is_named_with_all_that_acts(undamped: ow.Turbine) -> None:
     assert "mean level at z = 1.5 m" in told
     assert "wheeler" in told
     assert "0.5 m/s in the mean over depth, towards 90" in told
-    still = ow.build(undamped, "clamped", ow.StillWater(stretching="wheeler"), elements=4)
-    assert "wheeler" not in tables.describe_sea(still)
 
 
 def test_rounding_is_no_number(full: CaseReport) -> None:
