@@ -8,8 +8,6 @@ from __future__ import annotations
 import pickle
 from typing import Any
 
-import numpy as np
-
 
 class OffwindError(Exception):
     """Base of every error this package raises on purpose."""
@@ -110,6 +108,7 @@ def _portable(value: object) -> object:
 
 
 def _shorten(value: object, limit: int = 240) -> str:
-    plain = value.item() if isinstance(value, np.generic) else value  # 18.0, no np.float64(18.0)
+    # 18.0 rather than np.float64(18.0); NumPy is not imported for the sake of messages.
+    plain = getattr(value, "item", lambda: value)() if getattr(value, "shape", 1) == () else value
     text = plain if isinstance(plain, str) and " " in plain else repr(plain)
     return text if len(text) <= limit else text[: limit - 3] + "..."

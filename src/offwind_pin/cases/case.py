@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from importlib import resources
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -12,6 +11,9 @@ from offwind_pin.analysis.build import build
 from offwind_pin.analysis.foundation.registry import FOUNDATIONS
 from offwind_pin.base.definition import Definition, NonNegative, Number, Positive, Seed, key
 from offwind_pin.cases.schema.tower_top import TowerTopLoadChoice
+from offwind_pin.cases.shipped import shipped_cases
+from offwind_pin.definitions.element import Element
+from offwind_pin.definitions.engine import Engine
 from offwind_pin.definitions.reader import find_definition, load_turbine, read_definition
 from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.dynamics.system import System
@@ -19,7 +21,7 @@ from offwind_pin.loads.earthquake.earthquake import Earthquake
 from offwind_pin.loads.sea.sea import DrySea, Sea
 from offwind_pin.loads.sea.seas import SeaChoice
 from offwind_pin.loads.wind.tower_wind import TowerWind
-from offwind_pin.structure.chain import MOST_ELEMENTS, Element
+from offwind_pin.structure.chain import MOST_ELEMENTS
 
 
 def _known_foundation(name: str) -> str:
@@ -50,9 +52,11 @@ class StaticAnalysis(Definition):
 
     settle : for how long the undeformed structure is followed in time as it comes to rest under
         gravity, beside the direct solution; or None
+    engine : what evaluates the equations of motion
     """
 
     kind: Literal["static"]
+    engine: Engine = "compiled"
     compare_with: FoundationName | None = None
     settle: Annotated[Positive, Field(ge=10, le=1e5)] | None = key("settle_s", default=None)
 
@@ -84,17 +88,23 @@ class ModalAnalysis(Definition):
     """Natural modes about the static state under gravity.
 
     identify : whether the fore-aft modes are taken out of accelerations as well
+    engine : what evaluates the equations of motion
     """
 
     kind: Literal["modes"]
+    engine: Engine = "compiled"
     count: Annotated[int, Field(ge=1, le=50)] = 8
     identify: Identification | None = None
 
 
 class TransientAnalysis(Definition):
-    """Time histories, and the spectrum of the fore-aft moment at the mudline after the ramp."""
+    """Time histories, and the spectrum of the fore-aft moment at the mudline after the ramp.
+
+    engine : what evaluates the equations of motion
+    """
 
     kind: Literal["transient"]
+    engine: Engine = "compiled"
     duration: Annotated[Positive, Field(le=1e5)] = key("duration_s")
     ramp: NonNegative = key("ramp_s")
     dt: Annotated[Positive, Field(le=1)] = key("dt_s")
@@ -192,13 +202,6 @@ class Case(Definition):
         if isinstance(elements, dict) and name != "distributed_springs":  # no pile to divide
             elements = {region: count for region, count in elements.items() if region != "pile"}
         return build(self.turbine, name, self.water, elements=elements, element=self.element)
-
-
-def shipped_cases() -> list[str]:
-    """Names of the cases that come with the package."""
-    folder = resources.files("offwind_pin.cases") / "oc6_phase2"
-    names = [entry.name for entry in folder.iterdir() if entry.name.endswith(".yaml")]
-    return sorted(f"oc6-{name.removesuffix('.yaml')}" for name in names)
 
 
 def load_case(name_or_path: str | Path) -> Case:

@@ -17,7 +17,6 @@ import offwind_pin as ow
 from offwind_pin.base.mode_labels import mode_family
 from offwind_pin.base.whole_files import write_netcdf
 from offwind_pin.cases.run import modes_to_dataset, static_to_dataset
-from offwind_pin.cli import commands
 from offwind_pin.display.viewer import stills as pictures
 from offwind_pin.display.viewer.history_frames import frames
 from offwind_pin.display.viewer.history_page import ARROW_SHARE, TOP_COLOUR
@@ -56,8 +55,14 @@ def nothing_solved(monkeypatch: pytest.MonkeyPatch) -> None:
     def refuse(*_: Any, **__: Any) -> None:
         raise AssertionError("something was solved")
 
-    for name in ("build", "modes", "static", "run_case", "load_turbine"):
-        monkeypatch.setattr(commands, name, refuse)
+    for name in (
+        "analysis.build.build",
+        "analysis.modal.modes",
+        "analysis.static.static",
+        "cases.run.run_case",
+        "definitions.reader.load_turbine",
+    ):
+        monkeypatch.setattr(f"offwind_pin.{name}", refuse)
 
 
 class TestShapes:

@@ -26,16 +26,19 @@ FOUNDATIONS: dict[str, Callable[[Turbine], Foundation]] = {
 }
 
 
-def make_foundation(turbine: Turbine, name: str) -> Foundation:
-    """The foundation of that name for a turbine; cautions about its curves go to the log.
+def make_foundation(turbine: Turbine, kind: str | Foundation) -> Foundation:
+    """The foundation of that name for a turbine, or the one given; cautions go to the log.
 
     Raises
     ------
     InputError : no foundation of that name, or the turbine lacks what it needs
     """
-    if name not in FOUNDATIONS:
-        raise InputError("foundation", name, ", ".join(FOUNDATIONS), "Choose one of them.")
-    foundation = FOUNDATIONS[name](turbine)
+    if isinstance(kind, Foundation):
+        foundation = kind
+    elif kind in FOUNDATIONS:
+        foundation = FOUNDATIONS[kind](turbine)
+    else:
+        raise InputError("foundation", kind, ", ".join(FOUNDATIONS), "Choose one of them.")
     for caution in foundation.cautions:
         _log.warning("turbine %s: %s", turbine.name, caution)
     return foundation

@@ -12,7 +12,6 @@ from typing import Annotated, Literal, Self
 
 import numpy as np
 from pydantic import Field, model_validator
-from scipy.interpolate import CubicSpline
 
 from offwind_pin.base.definition import (
     Array,
@@ -137,6 +136,8 @@ class RotorTurbulence:
 
     def harmonic_spectrum(self, frequency: Array, order: int) -> Array:
         """(f,) one-sided spectrum S_n = S F_n of a harmonic in the frame that turns, (m/s)^2/Hz."""
+        from scipy.interpolate import CubicSpline
+
         lowest = 1e-3 * self.turbulence.wind_speed / self.turbulence.length
         highest = 1e3 * self.turbulence.wind_speed / self.radius
         lines = np.geomspace(lowest, highest, _LINES)

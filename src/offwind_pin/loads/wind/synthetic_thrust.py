@@ -14,7 +14,6 @@ from typing import Annotated, ClassVar, Literal, Self
 
 import numpy as np
 from pydantic import Field
-from scipy.optimize import brentq
 
 from offwind_pin.base.definition import Array, Definition, NonNegative, Positive, Seed, key
 from offwind_pin.base.errors import InputError
@@ -79,6 +78,8 @@ def operate_rotor(
 
     wind_speed in m/s, blade_passing_frequency in Hz.
     """
+    from scipy.optimize import brentq
+
     rotor_speed = 2 * np.pi * blade_passing_frequency / rna.blades
     radius = rotor_radius(rna)
     ratio = rotor_speed * radius / wind_speed

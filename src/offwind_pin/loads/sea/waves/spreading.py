@@ -6,7 +6,6 @@ from typing import Annotated, Literal
 
 import numpy as np
 from pydantic import Field
-from scipy.special import betaincinv, gammaln
 
 from offwind_pin.base.definition import Array, Definition, Positive
 
@@ -29,6 +28,8 @@ class Spreading(Definition, kw_only=False):
 
     def density(self, angle: Array) -> Array:
         """(n,) in 1/rad at angles (n,) in rad from the mean direction, from -pi to pi."""
+        from scipy.special import gammaln
+
         if self.kind == "cos_2s":
             s = self.exponent
             level = np.exp(gammaln(s + 1) - gammaln(s + 0.5)) / (2 * np.sqrt(np.pi))
@@ -42,6 +43,8 @@ class Spreading(Definition, kw_only=False):
 
         sin^2 of the angle, or of its half, follows a beta distribution.
         """
+        from scipy.special import betaincinv
+
         side = 2 * share - 1
         if self.kind == "cos_2s":
             square = betaincinv(0.5, self.exponent + 0.5, np.abs(side))
@@ -55,6 +58,8 @@ class Spreading(Definition, kw_only=False):
 
         sqrt(2 / (1 + s)) for cos^2s.
         """
+        from scipy.special import gammaln
+
         if self.kind == "cos_2s":
             return float(np.sqrt(2 / (1 + self.exponent)))
         n = self.exponent

@@ -9,7 +9,6 @@ from typing import Annotated
 
 import numpy as np
 from pydantic import Field
-from scipy.signal.windows import tukey
 
 from offwind_pin.base.definition import (
     Array,
@@ -101,6 +100,8 @@ class SurfaceRecord(Definition, kw_only=False):
         over a hundredth of the record), so that the record may repeat; then all frequencies beyond
         the cuts are left out.
         """
+        from scipy.signal.windows import tukey
+
         n, duration = len(self.elevation), self.duration
         at = np.arange(n) * self.dt
         slope, start = np.polyfit(at, self.elevation, 1)
