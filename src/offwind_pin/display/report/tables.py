@@ -384,7 +384,7 @@ def provenance(report: CaseReport) -> list[tuple[str, str]]:
             del known["wave_seed"]
     known["sea"] = describe_sea(system)
     if report.wind is not None:
-        known["seed of the synthetic wind"] = report.wind.generator.seed
+        known["seed of the synthetic wind"] = report.wind.generator.wind_seed
     ordered = [key for key in _PROVENANCE_NAMES if key in known]
     others = [key for key in known if key not in _PROVENANCE_NAMES and key not in _DESCRIPTIVE]
     return [(_PROVENANCE_NAMES.get(key, key), str(known[key])) for key in ordered + others]

@@ -261,7 +261,7 @@ class RotorWind(Definition, kw_only=False):
         count = int(np.ceil(repeat_period / dt - 1e-9))
         time = np.arange(count) * repeat_period / count
         order = np.arange(1, int(highest * repeat_period) + 1)
-        rng = random_stream(self._seed, "rotor_wind")
+        rng = random_stream(self.wind_seed, "rotor_wind")
         lines = np.zeros(count // 2 + 1, dtype=complex)
         if self.intensity > 0:
             spectrum = rotor.thrust_spectrum(order / repeat_period)
@@ -302,11 +302,12 @@ class RotorWind(Definition, kw_only=False):
         return np.asarray(wind @ weight)
 
     @property
-    def _seed(self) -> int:
+    def wind_seed(self) -> int:
+        """What draws it: its own seed, or 1."""
         return 1 if self.seed is None else self.seed
 
     def _describe(self) -> str:
         return (
             f"rotor-effective wind, {self.wind_speed:g} m/s, turbulence intensity "
-            f"{self.intensity:.4g}, shear exponent {self.shear_exponent:g}, seed {self._seed}"
+            f"{self.intensity:.4g}, shear exponent {self.shear_exponent:g}, seed {self.wind_seed}"
         )

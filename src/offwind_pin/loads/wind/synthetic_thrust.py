@@ -155,7 +155,7 @@ class SyntheticWind(Definition, kw_only=False):
         """
         _check_sampling(dt, repeat_period)
         rotor = operate_rotor(rna, self.wind_speed, self.blade_passing_frequency)
-        rng = random_stream(self._seed, "synthetic_wind")
+        rng = random_stream(self.wind_seed, "synthetic_wind")
         count = int(np.ceil(repeat_period / dt - 1e-9))
         interval = repeat_period / count
         frequency = np.arange(1, int(_HIGHEST_FREQUENCY * repeat_period) + 1) / repeat_period
@@ -191,11 +191,12 @@ class SyntheticWind(Definition, kw_only=False):
         return kaimal / (1 + size ** (4 / 3)) ** 2
 
     @property
-    def _seed(self) -> int:
+    def wind_seed(self) -> int:
+        """What draws it: its own seed, or 1."""
         return 1 if self.seed is None else self.seed
 
     def _describe(self) -> str:
-        return f"synthetic wind load, {self.wind_speed} m/s, seed {self._seed}"
+        return f"synthetic wind load, {self.wind_speed} m/s, seed {self.wind_seed}"
 
 
 def steady_load(rna: RotorNacelleRNA, rotor: RotorOperation) -> Array:
