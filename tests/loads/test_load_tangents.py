@@ -43,7 +43,8 @@ from offwind_pin.loads.tower_top.load_history import TowerTopLoad
 from offwind_pin.loads.wind.history import WindHistory
 from offwind_pin.loads.wind.profiles import ExtremeOperatingGust, PowerLaw
 from offwind_pin.loads.wind.rotor_thrust import Control, RotorThrust
-from offwind_pin.loads.wind.tower_drag import TowerDrag, TowerWind
+from offwind_pin.loads.wind.tower_drag import TowerDrag
+from offwind_pin.loads.wind.tower_wind import TowerWind
 
 TIME, RISE = 2.3, 0.7
 STEP, SIZE = 1e-5, 0.05
@@ -159,7 +160,7 @@ def pressure_inside(oc6: ow.Turbine, folder: Path) -> KernelLoad:
 
 def wind(oc6: ow.Turbine, folder: Path) -> TowerDrag:
     gust = ExtremeOperatingGust(8.0, start=0.0)
-    blowing = TowerWind(20.0, 100.0, PowerLaw(0.14), 0.7, direction=0.5, gust=gust)
+    blowing = TowerWind(20.0, 100.0, PowerLaw(0.14), 0.7, direction_deg=np.degrees(0.5), gust=gust)
     return tower_drag(ow.build(oc6, "clamped", elements=12), blowing)
 
 

@@ -38,7 +38,6 @@ from offwind_pin.loads.tower_top.load_history import LoadHistory, TowerTopLoad, 
 from offwind_pin.results.blocks import BLOCK_FOLDER, Block, BlockStore, FolderStore, MemoryStore
 from offwind_pin.results.dataset import HistoryWriter
 from offwind_pin.solvers.steps import FixedStep
-from offwind_pin.structure.urdf import definition_hash
 
 _log = logging.getLogger(__name__)
 
@@ -389,7 +388,7 @@ def _provenance(
     surrogates = [system.foundation.surrogate, *(history.surrogate for history in origins)]
     return {
         "turbine": system.turbine.name,
-        "definition_sha256": definition_hash(system.turbine),
+        "definition_sha256": system.turbine.content_hash,
         "foundation": system.foundation.name,
         "sea": repr(system.sea) if system.sea else "dry",
         "wave_seed": -1 if system.sea is None else system.sea.wave_seed,

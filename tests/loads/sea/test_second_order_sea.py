@@ -10,8 +10,8 @@ from pydantic import TypeAdapter, ValidationError
 
 import offwind_pin as ow
 from offwind_pin.analysis.wave_checks import wave_facts
-from offwind_pin.cases.schema.sea import SeaChoice
 from offwind_pin.loads.sea.kinematics import WaterSeries, WaterSurface
+from offwind_pin.loads.sea.seas import SeaChoice
 from offwind_pin.loads.sea.waves.second_order import SecondOrderWaves
 from offwind_pin.loads.sea.waves.surface import SurfaceWaves
 
@@ -46,13 +46,13 @@ def test_a_regular_wave_gets_its_second_harmonic() -> None:
 def test_case_file() -> None:
     keys = {"kind": "irregular_waves", "significant_height_m": 3.0, "peak_period_s": 9.0}
     adapter: TypeAdapter[Any] = TypeAdapter(SeaChoice)
-    made = adapter.validate_python({**keys, "order": 2}).sea(1, 600.0, None)
+    made = adapter.validate_python({**keys, "order": 2}).completed(1, 600.0)
     assert made.order == 2
     assert "to second order" in made.in_words
     with pytest.raises(ValidationError, match="1 or 2"):
         adapter.validate_python({**keys, "order": 3})
     current = {"kind": "uniform", "speed_m_per_s": 1.0}
-    with pytest.raises(ValidationError, match="order: 1 only"):
+    with pytest.raises(ValidationError, match="exclude each other"):
         adapter.validate_python({**keys, "order": 2, "doppler": True, "current": current})
 
 

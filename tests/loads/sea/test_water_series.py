@@ -1,7 +1,5 @@
 """Water over time: the table against direct sums, stretching by hand, blocks, current, rise."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
@@ -161,6 +159,7 @@ def test_unknown_stretching_is_refused() -> None:
 
 
 def test_water_level_below_the_bed(oc6: ow.Turbine) -> None:
-    calm = replace(ow.StillWater(), water_level=-40.0)
+    shallow = oc6.replace(site=oc6.site.replace(water_depth=10.0))
+    calm = ow.StillWater(water_level=-12.0)
     with pytest.raises(ow.InputError, match="water_level"):
-        ow.build(oc6, "clamped", calm).waters  # noqa: B018
+        ow.build(shallow, "clamped", calm).waters  # noqa: B018

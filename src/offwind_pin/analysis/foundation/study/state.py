@@ -16,7 +16,6 @@ from offwind_pin.dynamics.system import System
 from offwind_pin.loads.soil.curves.laws import SoilCurves
 from offwind_pin.loads.soil.springs.elastic import LATERAL, SoilSprings
 from offwind_pin.results.reading import analysed
-from offwind_pin.structure.urdf import definition_hash
 
 _SAME_HEIGHT = 1e-6
 """Difference in m."""
@@ -76,7 +75,7 @@ def reached_in_run(turbine: Turbine, soil: SoilSprings, directory: Path) -> Arra
             raise InputError(
                 where, f"a result of turbine {name}", turbine.name, "Give a result of this turbine."
             )
-        if made_of != definition_hash(turbine):
+        if made_of != turbine.content_hash:
             allowed = "one of the definition as it is now"
             raise InputError(where, f"a result of another {name}", allowed, "Run the case again.")
         if float(histories.height.min()) > float(soil.height.min()) + _SAME_HEIGHT:

@@ -52,7 +52,6 @@ from offwind_pin.loads.soil.soil_profile import Ground, layer_index
 from offwind_pin.loads.soil.springs.elastic import SoilSprings
 from offwind_pin.loads.soil.springs.frictional_moment import FrictionalMoment
 from offwind_pin.structure.section import outer_diameter
-from offwind_pin.structure.urdf import definition_hash
 
 Made = TypeVar("Made")
 
@@ -197,7 +196,7 @@ class SoilOverview:
         springs, push = self.springs, self.pushover
         return {
             "turbine": self.turbine.name,
-            "definition_sha256": definition_hash(self.turbine),
+            "definition_sha256": self.turbine.content_hash,
             "surrogate": self.foundation.surrogate,
             "cautions": list(self.foundation.cautions),
             "remarks": list(self.remarks),
