@@ -9,12 +9,13 @@ from offwind_pin.base.errors import InputError
 from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.sea.sea import Sea, StillWater
+from offwind_pin.loads.soil.foundation import Foundation
 from offwind_pin.structure.chain import Element, Elements, Stiffness
 
 
 def build(
     turbine: Turbine,
-    foundation: str = "distributed_springs",
+    foundation: str | Foundation = "distributed_springs",
     sea: Sea | None = None,
     *,
     elements: Elements = None,
@@ -26,7 +27,8 @@ def build(
     Parameters
     ----------
     foundation : ``"clamped"``, ``"apparent_fixity"``, ``"coupled_springs"``,
-        ``"distributed_springs"`` or ``"macro_element"``
+        ``"distributed_springs"`` or ``"macro_element"``, a name given to ``register_foundation``,
+        or a :class:`Foundation`
     sea : :class:`StillWater`, :class:`IrregularWaves`, or None for a dry structure
     elements : number of multibody beam elements in all, by region, or None for the default, which
         puts the first five frequencies within 0.1 % of the converged ones

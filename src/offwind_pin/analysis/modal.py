@@ -93,7 +93,7 @@ def modes(system: System, n: int = 8, about: StaticResult | None = None) -> Moda
         allowed = f"a static state of this system, with {system.nv} degrees of freedom"
         raise InputError("about", f"one with {len(state.q)}", allowed, "Solve statics anew.")
     rest = np.zeros(system.nv)
-    equations = system.equations(state.loads, np.inf, state.memory)
+    equations = system.equations(state.loads, None, state.memory)
     stiffness, damping = equations.tangents(0.0, state.q, rest)
     # One mode more than asked for, so that no pair of equal frequency is cut in two; and more where
     # dampers split modes, so that labels do not depend on how many are asked for.

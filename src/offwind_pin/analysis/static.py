@@ -99,8 +99,8 @@ def static(
     acting = [*loads]
     if tower_top_load is not None:
         acting.append(constant_load(system.chain.top, tower_top_load))
-    chain = CompiledChain(system, acting, ramp_time=np.inf)
-    row = chain.rows(np.zeros(1))[0]
+    chain = CompiledChain(system, acting)
+    row = chain.mean_inputs()
     rest = np.zeros(system.nv)
     scale = load_scale(system)
     if after is not None:

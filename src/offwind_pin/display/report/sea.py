@@ -12,7 +12,7 @@ from offwind_pin.base.definition import Array
 from offwind_pin.display.figures import sea as sea_plots
 from offwind_pin.display.figures import sea_data
 from offwind_pin.display.wording import fixed, number
-from offwind_pin.loads.sea.hydrodynamic_loads import Waters
+from offwind_pin.loads.sea.hydrodynamic_loads import HydrodynamicModel
 from offwind_pin.loads.sea.sea import Sea
 from offwind_pin.loads.sea.waves.wave_field import WaveField
 from offwind_pin.signal.spectra import power_spectral_density
@@ -76,7 +76,7 @@ def _elevation(sea: Sea, time: Array, elevation: Array, ramp: float) -> SeaPictu
     )
 
 
-def _kinematics(waters: Waters, waves: WaveField, sea: Sea, crest: float) -> SeaPicture:
+def _kinematics(waters: HydrodynamicModel, waves: WaveField, sea: Sea, crest: float) -> SeaPicture:
     when = sea_data.phases(waters.surface, waves, crest)
     along = sea_data.wave_direction(waves)
     shown = sea_data.profiles(waters, sea, np.array([when.crest, when.crossing, when.trough]))
@@ -114,7 +114,7 @@ def _spectrum(
     )
 
 
-def _forces(waters: Waters, waves: WaveField, time: Array, worst: float) -> SeaPicture:
+def _forces(waters: HydrodynamicModel, waves: WaveField, time: Array, worst: float) -> SeaPicture:
     mudline = waters.turbine.site.mudline
     force, along = waters.wave_force(), sea_data.wave_direction(waves)
     then = sea_data.force_per_length(force, np.array([worst]), along)

@@ -17,7 +17,12 @@ from numpy.typing import NDArray
 
 from offwind_pin.base.definition import Array
 from offwind_pin.base.kernels import announce, exchanging_kernels
-from offwind_pin.dynamics.acting_loads import all_loads, grounding, smooth_ramp
+from offwind_pin.dynamics.acting_loads import (
+    all_loads,
+    grounding,
+    smooth_ramp,
+)
+from offwind_pin.dynamics.base_excitation import GROUND_NUMBERS
 from offwind_pin.dynamics.compiled.chain_arrays import ChainArrays, chain_arrays
 from offwind_pin.dynamics.compiled.newton_matrix import correction, factorise, unstable_directions
 from offwind_pin.dynamics.compiled.recorder_arrays import (
@@ -34,9 +39,8 @@ from offwind_pin.dynamics.compiled.residual import balance, commit
 from offwind_pin.dynamics.reference.equations import Equations
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.earthquake.ground_motion import GroundMotion
-from offwind_pin.loads.point_load import PointLoad, nothing_stored
-from offwind_pin.loads.python_load import PythonLoad, as_kernel_load
-from offwind_pin.loads.root_restraint import as_kernel_restraint
+from offwind_pin.loads.point_load import PointLoad
+from offwind_pin.loads.root_restraint import FREE
 from offwind_pin.solvers import generalized_alpha
 
 
@@ -53,7 +57,9 @@ class CompiledChain:
     Attributes
     ----------
     arrays : the system as arrays, with the state last evaluated
-    loads : soil, water and what was given, in compiled form
+    acting : loads of water and soil, and those given
+    parts : of each of them, as compiled code sees it
+    loads : all these parts
     soil : nodes at which the foundation's soil acts
     ground_motion : of the ground below, or None
     """
@@ -62,7 +68,7 @@ class CompiledChain:
         self,
         system: System,
         loads: Sequence[PointLoad] = (),
-        ramp_time: float = 0.0,
+        ramp_time: float | None = 0.0,
         ground_motion: GroundMotion | None = None,
     ) -> None:
         announce()
@@ -70,11 +76,13 @@ class CompiledChain:
         self.ramp_time = ramp_time
         self.ground_motion = ground_motion
         self._given = loads
-        everything = all_loads(system, loads)
-        self.loads = [as_kernel_load(load) for load in everything]
-        self.soil = make_soil_nodes(everything, system.foundation.soil)
-        self._root = as_kernel_restraint(system.foundation.root)
-        ground = grounding(system, everything, ground_motion)
+        self.acting = all_loads(system, loads)
+        self.parts = [load.compiled() for load in self.acting]
+        self.loads = [part for parts in self.parts for part in parts]
+        self.soil = make_soil_nodes(self.loads)
+        root = system.foundation.root
+        self._root = FREE if root is None else root.compiled()
+        ground = grounding(system, self.loads, ground_motion)
         self.arrays = chain_arrays(system, self.loads, self._root, ground)
 
     def rows(self, time: Array) -> Array:
@@ -82,11 +90,18 @@ class CompiledChain:
 
         time : (t,) in s
         """
-        rise = smooth_ramp(time, self.ramp_time)
-        parts = [np.asarray(time)[:, None], *(load.rows(time, rise) for load in self.loads)]
+        ramp_factor = smooth_ramp(time, self.ramp_time)
+        inputs = (load.time_inputs(time, ramp_factor) for load in self.loads)
+        parts = [np.asarray(time)[:, None], *inputs]
         if self.ground_motion is not None:
             parts.insert(1, self.ground_motion.motion(time).reshape(len(time), -1))
         return np.ascontiguousarray(np.hstack(parts))
+
+    def mean_inputs(self) -> Array:
+        """(1 + w,) the same of the means of the loads, on ground at rest."""
+        levels = 0 if self.ground_motion is None else len(self.ground_motion.levels)
+        parts = [np.zeros(1 + GROUND_NUMBERS * levels)]
+        return np.concatenate([*parts, *(load.mean_inputs() for load in self.loads)])
 
     def residual(self, row: Array, q: Array, v: Array, a: Array) -> Array:
         """(nv,) generalised forces out of balance, in N and N m; row from :meth:`rows`."""
@@ -139,8 +154,7 @@ class CompiledChain:
     @property
     def stores(self) -> NDArray[np.bool_]:
         """(L,) whether each load stores energy, and so does no work of its own."""
-        kernels = [load.energy_kernel for load in self.loads]
-        return np.array([kernel is not nothing_stored for kernel in kernels], dtype=np.bool_)
+        return np.array([load.stores_energy for load in self.loads], dtype=np.bool_)
 
     def record(
         self, sections: tuple[Cuts, Segments], row: Array, q: Array, v: Array, a: Array
@@ -175,9 +189,7 @@ class CompiledChain:
                 yield
         finally:
             for load in self.loads:
-                if isinstance(load, PythonLoad) and load.failure is not None:
-                    failure, load.failure = load.failure, None
-                    raise failure
+                load.raise_failure()
 
 
 def _is_run(system: Any) -> bool:

@@ -119,7 +119,7 @@ def chain_arrays(
     height = np.concatenate([np.zeros(0), *(load.height for load in loads)])
     carrier = chain.body_at(height)
     origin = chain.origin
-    widths = [load.rows(np.zeros(1), np.zeros(1)).shape[1] for load in loads]
+    widths = [len(load.mean_inputs()) for load in loads]
     sizes = [*(load.memory_size for load in loads), root.memory_size]
     return ChainArrays(
         base=chain.base,
@@ -146,7 +146,7 @@ def chain_arrays(
         damping=system.joint_damping,
         restraint=compiled_list([root.reaction_kernel]),
         restraint_commit=compiled_list([root.commit_kernel]),
-        restraint_numbers=root.numbers,
+        restraint_numbers=root.constants,
         point_body=carrier,
         point_offset=height - origin[carrier],
         point_height=height,
