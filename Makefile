@@ -69,7 +69,7 @@ docs: $(DOCS_INSTALLED) ## Build the documentation to out/docs
 
 lock: ## Resolve the dependencies anew into requirements.lock and docs/requirements.lock
 	$(PYTHON) -m venv $(VENV)-lock
-	$(VENV)-lock/bin/python -m pip install --quiet 'uv>=0.5'
+	$(VENV)-lock/bin/python -m pip install --quiet 'uv>=0.5,<1'
 	$(VENV)-lock/bin/uv pip compile pyproject.toml --group dev --universal --python-version 3.11 \
 		--generate-hashes --no-emit-index-url --no-header --no-annotate --output-file requirements.lock
 	$(VENV)-lock/bin/uv pip compile pyproject.toml --group docs --universal --python-version 3.11 \

@@ -20,10 +20,11 @@ import xarray as xr
 import offwind_pin as ow
 from offwind_pin.analysis.integrators import Integrator
 from offwind_pin.base.definition import Array
+from offwind_pin.definitions.element import Element
 from offwind_pin.definitions.soil.springs import DistributedSprings
 from offwind_pin.loads.root_restraint import LinearRestraint
 from offwind_pin.loads.tower_top.load_history import TowerTopLoad
-from offwind_pin.structure.chain import Element, Elements
+from offwind_pin.structure.chain import Elements
 
 ELEMENTS = {"pile": 60, "monopile": 6, "tower": 14}
 

@@ -1,4 +1,4 @@
-"""Sphinx's settings. ``make docs`` builds the pages to out/docs, without a network."""
+"""Sphinx configuration. ``make docs`` builds the pages in out/docs, without a network."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ sphinx_gallery_conf = {
 
 
 def _without_links_to_folders(app: Sphinx, name: str, source: list[str]) -> None:
-    """A folder is a place in the repository and no page: its name stays, without a link."""
+    """Replace links to repository folders, which are not pages, by their text."""
     here = Path(app.env.doc2path(name)).parent
 
     def replace(found: re.Match[str]) -> str:
@@ -72,7 +72,7 @@ _LOADED = re.compile(
 
 
 def _refuse_the_network(app: Sphinx, failure: Exception | None) -> None:
-    """No page may load anything from elsewhere: the site is read offline as well."""
+    """Fail if a page loads anything from the network: the site must work offline."""
     if failure is None and app.builder.format == "html":
         for page in Path(app.outdir).rglob("*.html"):
             loaded = _LOADED.search(page.read_text())
@@ -81,7 +81,7 @@ def _refuse_the_network(app: Sphinx, failure: Exception | None) -> None:
 
 
 def setup(app: Sphinx) -> None:
-    """Connect what stands above."""
+    """Register the lexer and connect the handlers above."""
     app.add_lexer("csv", TextLexer)
     app.connect("source-read", _without_links_to_folders)
     app.connect("build-finished", _refuse_the_network)

@@ -8,8 +8,8 @@ from typing import Any
 from matplotlib.figure import Figure
 
 import offwind_pin as ow
+from offwind_pin.definitions.element import Element
 from offwind_pin.display.figures.style import BLUE, PALETTE, styled
-from offwind_pin.structure.chain import Element
 
 CASES = {
     "clamped, dry": ("clamped", None),

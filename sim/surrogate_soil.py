@@ -21,10 +21,10 @@ from numpy.typing import NDArray
 
 import offwind_pin as ow
 from offwind_pin.analysis.updating.targets import Responses
+from offwind_pin.definitions.element import Element
 from offwind_pin.definitions.soil.depth_profile import DepthLine
 from offwind_pin.definitions.soil.springs import CurveTable, LinearModulus, TanhCurve
 from offwind_pin.display.figures.style import FULL_WIDTH, INK, PALETTE, styled, to_svg
-from offwind_pin.structure.chain import Element
 
 Array = NDArray[np.float64]
 Curve = LinearModulus | TanhCurve | CurveTable

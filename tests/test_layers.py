@@ -37,13 +37,18 @@ ALLOWED: dict[str, set[str]] = {
 }
 """What each room may import of the package, from the bottom up."""
 
-ABOVE = ["display", "plots", "cases", "verification", "cli"]
+ABOVE = ["display", "plots", "cases", "viewer", "verification", "cli"]
 """Rooms above the analyses: each may import those, and the ones before it in this list."""
 
 ALLOWED |= {room: set(ALLOWED) | set(ABOVE[:place]) for place, room in enumerate(ABOVE)}
 
 PINOCCHIO = {"structure", "dynamics"}
 """Rooms that may import Pinocchio."""
+
+NAMESPACES = {"sea", "soil", "wind"}
+"""Lists of public names; a stub beside each, which is imported name by name, may use every room."""
+
+ALLOWED |= {room: {"base"} for room in NAMESPACES}
 
 FACE = {"__init__", "__main__"}
 """Top-level files that may import every room."""

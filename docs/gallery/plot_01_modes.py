@@ -2,9 +2,9 @@
 Modes of the OC6 monopile
 =========================
 
-Natural frequencies of the whole structure about its static state, on three foundations, and the
-shapes of the first two fore-aft modes. The second is where foundations differ most: its belly is
-halfway up the tower, its foot below the water, and the soil decides how far the foot goes along.
+Natural frequencies of the whole structure about its static state on three foundations, and the
+shapes of the first two fore-aft modes. The foundations differ most in the second mode: its antinode
+is halfway up the tower, and the soil determines how far the pile below the water moves with it.
 """
 
 import matplotlib.pyplot as plt

@@ -1,9 +1,10 @@
 """
-How far a load uses the soil
-============================
+Soil utilisation under load
+===========================
 
-A storm's thrust and its moment on the distributed springs: the displacement of each node, the share
-of the ultimate resistance that it uses, and where the load lies on the pile's pushover.
+A storm thrust and its moment applied to the structure on distributed springs: the displacement of
+each node, the fraction of the ultimate soil resistance that is mobilised, and the position of the
+load on the pushover curve of the pile.
 """
 
 import matplotlib.pyplot as plt
@@ -17,7 +18,7 @@ LOAD = np.array([3.0e6, 0, 0, 0, 9.0e6, 0])  # at the yaw bearing, N and N m
 
 @styled
 def main() -> dict[str, float]:
-    """Mudline displacement in m, largest utilisation, and loads of the pushover in MN."""
+    """Mudline displacement in m, largest utilisation, and pushover loads in MN."""
     soil = ow.soil_overview(ow.load_turbine("oc6_phase2"), load=LOAD)
     state, push = soil.state, soil.pushover
     if state is None:

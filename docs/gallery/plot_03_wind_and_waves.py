@@ -1,10 +1,11 @@
 """
-Wind and waves in time, and the spectrum at the seabed
-======================================================
+Wind and waves: time history and spectrum
+=========================================
 
-Three minutes of a running rotor in turbulent wind above irregular waves, from the static state
-under the mean thrust. The moment at the mudline follows the slow wind, the waves, and the passing
-of the blades; the first mode, which the rotor damps, is broad and no more than the waves'.
+Three minutes of a running rotor in turbulent wind and irregular waves, starting from the static
+state under the mean thrust. The mudline moment follows the slow wind variations, the waves, and the
+blade passing. The peak of the first mode, which the rotor damps, is broad and no higher than that
+of the waves.
 """
 
 import matplotlib.pyplot as plt
@@ -18,7 +19,7 @@ RAMP, DURATION, DT = 30.0, 180.0, 0.05
 
 @styled
 def main() -> dict[str, float]:
-    """Mean and standard deviation of the moment in MN m, first mode in Hz, check of the area."""
+    """Mean and standard deviation of the moment in MN m, first mode in Hz, area check."""
     turbine = ow.load_turbine("oc6_phase2")
     sea = ow.IrregularWaves(2.5, 8.0, seed=1, repeat_period=DURATION)
     system = ow.build(turbine, "distributed_springs", sea, elements=24)

@@ -1,11 +1,11 @@
 """
-A steep wave against a linear one
-=================================
+Steep and linear waves
+======================
 
-The same height and period twice: by linear theory up to the mean water level, and by stream
-function theory up to the crest, once both have settled. In shallow water the crest is higher and
-narrower than half the height, what acts above the mean level has the longest arm to the mudline,
-and the harmonics of the steep wave shake the first mode.
+The same wave height and period with linear theory up to the mean water level, and with stream
+function theory up to the crest, both in the steady state. In shallow water the crest is narrow and
+higher than half the wave height, the forces above the mean level have the longest arm to the
+mudline, and the harmonics of the steep wave excite the first mode.
 """
 
 import matplotlib.pyplot as plt
@@ -18,7 +18,7 @@ HEIGHT, PERIOD, PERIODS = 10.0, 11.0, 20
 
 @styled
 def main() -> dict[str, float]:
-    """Crest in m and largest moment at the mudline in MN m, of either theory."""
+    """Crest in m and largest mudline moment in MN m for each theory."""
     turbine = ow.load_turbine("oc3_phase2")
     crest_time = (PERIODS - 0.5) * PERIOD
     steep = ow.StreamWaves(HEIGHT, PERIOD, crest_time=crest_time)
@@ -28,7 +28,7 @@ def main() -> dict[str, float]:
     for (name, sea), color in zip(seas.items(), (BLUE, VERMILLION), strict=True):
         system = ow.build(turbine, "coupled_springs", sea, elements=20)
         history = ow.simulate(system, PERIODS * PERIOD, 0.05, ramp=10 * PERIOD)
-        # One period with the crest in its middle; the linear wave's comes at whole periods.
+        # One period with the crest in the middle; linear waves have theirs at whole periods.
         start = (PERIODS - (1.5 if name == "linear" else 1)) * PERIOD
         last = history.sel(time=slice(start - 0.01, start + PERIOD + 0.01))
         surface = last["wave_elevation"].values

@@ -1,9 +1,9 @@
 """
-Own p-y curves out of a table
-=============================
+Your own p-y curves from a table
+================================
 
-Curves of a site investigation as a CSV table, written into a copy of a turbine's definition. Beside
-them stands what the tabulated soil makes of the first frequencies when it becomes weaker by half.
+Curves from a site investigation as a CSV table, used in a copy of a turbine definition. The first
+frequencies are computed with the tabulated soil and with soil of half the strength.
 """
 
 import tempfile
@@ -21,7 +21,7 @@ DEPTHS, DISPLACEMENTS = (0.0, 12.0, 36.0), np.array([0.005, 0.02, 0.05, 0.2])
 
 
 def write_table(path: Path, factor: float) -> None:
-    """Curves that soften with displacement and grow with depth, in the columns of the format."""
+    """Write curves that soften with displacement and increase with depth, as CSV."""
     rows = ["depth_m,y_m,p_n_per_m"]
     for depth in DEPTHS:
         ultimate = factor * (3.0e5 + 4.0e5 * depth)
@@ -31,7 +31,7 @@ def write_table(path: Path, factor: float) -> None:
 
 
 def turbine_with(folder: Path, factor: float) -> ow.Turbine:
-    """The OC3 monopile on springs out of the table."""
+    """The OC3 monopile on springs from the table."""
     definition = yaml.safe_load(SHIPPED.read_text())
     definition["soil"]["distributed_springs"]["curve"] = {"kind": "table", "file": "curves.csv"}
     write_table(folder / "curves.csv", factor)
@@ -41,7 +41,7 @@ def turbine_with(folder: Path, factor: float) -> ow.Turbine:
 
 @styled
 def main() -> dict[str, float]:
-    """Frequencies of the first two fore-aft modes in Hz, in the table's soil and in half of it."""
+    """First two fore-aft frequencies in Hz, with the soil of the table and half of it."""
     _, axes = plt.subplots(figsize=(6.0, 3.6))
     found = {}
     with tempfile.TemporaryDirectory() as name:

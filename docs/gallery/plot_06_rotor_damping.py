@@ -2,9 +2,9 @@
 Thrust curve and aerodynamic damping
 ====================================
 
-A running rotor damps the tower, since a motion into the wind raises the thrust. How much depends on
-how fast the controller follows: with rotor speed and pitch standing still the ratio stays positive
-at all winds; on the slope of the steady thrust curve it turns negative above rated.
+A running rotor damps the tower, because motion into the wind increases the thrust. The damping
+depends on how fast the controller follows. With constant rotor speed and pitch the ratio is
+positive at all wind speeds; along the steady thrust curve it is negative above rated.
 """
 
 import matplotlib.pyplot as plt
@@ -20,7 +20,7 @@ CONTROLS: tuple[Control, ...] = ("lagged", "instant")
 
 @styled
 def main() -> dict[str, float]:
-    """Largest thrust in MN, its wind in m/s, and damping ratios of the first fore-aft mode."""
+    """Largest thrust in MN, its wind speed in m/s, and damping ratios of FA1."""
     turbine = ow.load_turbine("oc6_phase2")
     system = ow.build(turbine, "clamped", elements=24)
     thrust = ow.thrust_curve(turbine, WINDS) / 1e6

@@ -1,10 +1,10 @@
 """
-Envelope of section loads over the height
-=========================================
+Envelope of section loads
+=========================
 
-The largest and the smallest fore-aft moment and shear force at every height of tower and pile, in a
-run with waves and a prescribed tower-top load. Below the mudline the moment goes on to grow until
-the soil has taken the shear force.
+Maximum and minimum fore-aft moment and shear force at every height of tower and pile, in a run with
+waves and a prescribed tower-top load. Below the mudline the moment continues to grow until the soil
+has taken up the shear force.
 """
 
 import matplotlib.pyplot as plt
@@ -17,7 +17,7 @@ RAMP, DURATION = 20.0, 100.0
 
 
 def load() -> ow.LoadHistory:
-    """A thrust that swings about a mean at a tenth of a hertz."""
+    """A thrust oscillating about a mean at 0.1 Hz."""
     time = np.arange(0.0, DURATION + 0.5, 0.5)
     thrust = 1.1e6 + 2.0e5 * np.sin(2 * np.pi * 0.1 * time)
     six = np.zeros((len(time), 6))
@@ -27,7 +27,7 @@ def load() -> ow.LoadHistory:
 
 @styled
 def main() -> dict[str, float]:
-    """Extremes in MN and MN m, and where below the mudline the moment is largest, in m."""
+    """Extremes in MN and MN m, and the depth of the largest moment in m."""
     turbine = ow.load_turbine("oc6_phase2")
     sea = ow.IrregularWaves(3.0, 9.0, seed=2, repeat_period=DURATION)
     system = ow.build(turbine, "distributed_springs", sea)

@@ -1,10 +1,10 @@
 """
-Does a stocky monopile shear?
-=============================
+Shear deformation of a monopile
+===============================
 
-The same structure of elements that only bend (Euler-Bernoulli) and of elements that shear as well
-(Timoshenko). A pile of 9 m diameter that is embedded for 45 m is short enough for its modes to feel
-it.
+The same structure with elements that only bend (Euler-Bernoulli) and with elements that also shear
+(Timoshenko). A pile of 9 m diameter with 45 m embedment is short enough for shear to affect its
+modes.
 """
 
 import matplotlib.pyplot as plt
@@ -18,7 +18,7 @@ MODES = ("FA1", "SS1", "FA2", "SS2")
 
 @styled
 def main() -> dict[str, float]:
-    """Change of frequencies by shear in percent, clamped and on the soil."""
+    """Change of frequencies due to shear in percent, clamped and on the soil."""
     turbine = ow.load_turbine("oc6_phase2")
     _, axes = plt.subplots(figsize=(6.4, 3.2))
     found: dict[str, float] = {}

@@ -2,4 +2,5 @@
 
 from offwind_pin.cli.main import main
 
-main()
+if __name__ == "__main__":
+    main()

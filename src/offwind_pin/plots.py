@@ -31,8 +31,8 @@ from offwind_pin.display.figures import soil as soil_plots
 from offwind_pin.display.figures.operational_modes import singular_value_plot
 from offwind_pin.display.figures.style import save_figure
 from offwind_pin.dynamics.system import System
+from offwind_pin.signal.modal_identification.identify import OperationalModes
 from offwind_pin.signal.moment_spectrum import moment_spectrum
-from offwind_pin.signal.operational_modes.identify import OperationalModes
 
 __all__ = [
     "mode_shapes",

@@ -7,8 +7,8 @@ from helpers.shear_beams import cowper, ritz_frequencies
 from numpy.typing import NDArray
 
 import offwind_pin as ow
+from offwind_pin.definitions.element import Element
 from offwind_pin.solvers.eigen import natural_modes
-from offwind_pin.structure.chain import Element
 from offwind_pin.structure.section import shear_stiffness
 from offwind_pin.verification.plain_tubes import (
     DENSITY,

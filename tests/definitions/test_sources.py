@@ -8,7 +8,8 @@ import pytest
 from pydantic import BaseModel
 
 import offwind_pin as ow
-from offwind_pin.cases.case import load_case, shipped_cases
+from offwind_pin.cases.case import load_case
+from offwind_pin.cases.shipped import shipped_cases
 
 
 def _unsourced(value: Any, place: str, sourced: bool) -> list[str]:

@@ -17,6 +17,7 @@ import offwind_pin as ow
 from offwind_pin.analysis.integrators import GeneralizedAlpha
 from offwind_pin.cases.summary import summarise_dampers
 from offwind_pin.cases.turbine_overview import overview
+from offwind_pin.definitions.element import Element
 from offwind_pin.definitions.soil.springs import Soil
 from offwind_pin.definitions.turbine import PointMass
 from offwind_pin.display.figures.results import mode_shapes
@@ -24,7 +25,6 @@ from offwind_pin.display.viewer.mode_motion import PEAK_SHARE, mode_motion
 from offwind_pin.display.viewer.mode_page import animate
 from offwind_pin.dynamics.compiled.chain import CompiledChain
 from offwind_pin.loads.tower_top.load_history import TowerTopLoad
-from offwind_pin.structure.chain import Element
 from offwind_pin.structure.pinocchio_model import build_model
 from offwind_pin.structure.urdf import definition_hash, write_sidecar, write_urdf
 

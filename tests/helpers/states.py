@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 import offwind_pin as ow
-from offwind_pin.structure.chain import NODE_JOINTS, Element
+from offwind_pin.definitions.element import Element
+from offwind_pin.structure.chain import NODE_JOINTS
 
 Array = NDArray[np.float64]
 

@@ -9,9 +9,9 @@ from helpers.soils import hysteretic, layered
 from helpers.states import State, random_state
 
 import offwind_pin as ow
+from offwind_pin.definitions.element import Element
 from offwind_pin.definitions.soil.depth_profile import DepthLine
 from offwind_pin.definitions.soil.springs import LinearModulus
-from offwind_pin.structure.chain import Element
 
 FOUNDATIONS = ("clamped", "coupled_springs", "distributed_springs", "macro_element")
 GROUNDS = {"layered": layered, "hysteretic": hysteretic, "dampers": several}

@@ -11,10 +11,10 @@ from pyoma2.functions.fdd import SD_est, SD_svalsvec
 from pyoma2.setup import SingleSetup
 
 from offwind_pin.base.definition import Array
-from offwind_pin.signal.operational_modes.cross_spectra import cross_spectral_matrix
-from offwind_pin.signal.operational_modes.fdd import singular_values
-from offwind_pin.signal.operational_modes.identify import OperationalModes, operational_modes
-from offwind_pin.signal.operational_modes.modal_assurance import modal_assurance
+from offwind_pin.signal.modal_identification.cross_spectra import cross_spectral_matrix
+from offwind_pin.signal.modal_identification.fdd import singular_values
+from offwind_pin.signal.modal_identification.identify import OperationalModes, operational_modes
+from offwind_pin.signal.modal_identification.modal_assurance import modal_assurance
 
 RATE, SEGMENT = 50.0, 160.0
 """Hz and s: its correlation function stands on a grid of two fifths of a sample, without

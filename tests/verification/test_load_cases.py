@@ -11,9 +11,10 @@ import pytest
 import xarray as xr
 
 import offwind_pin as ow
-from offwind_pin.cases.case import Case, ModalAnalysis, load_case, shipped_cases
+from offwind_pin.cases.case import Case, ModalAnalysis, load_case
 from offwind_pin.cases.run import run_case
 from offwind_pin.cases.settling import settle
+from offwind_pin.cases.shipped import shipped_cases
 
 ALWAYS = {"case", "wall_s", "simulated_s", "realtime_factor", "status"}
 

@@ -7,10 +7,11 @@ import pytest
 from numpy.typing import NDArray
 
 import offwind_pin as ow
+from offwind_pin.definitions.element import Element
 from offwind_pin.definitions.soil.depth_profile import DepthTable
 from offwind_pin.definitions.soil.springs import LinearModulus
 from offwind_pin.loads.point_load import PointMotion
-from offwind_pin.structure.chain import Element, Elements
+from offwind_pin.structure.chain import Elements
 
 SWAY_AND_ROCKING = np.ix_([0, 4], [0, 4])
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import offwind_pin as ow
-from offwind_pin.structure.chain import Element
+from offwind_pin.definitions.element import Element
 
 CLAMPED_DRY = {"FA1": 0.2731, "FA2": 1.426, "SS2": 1.329, "T1": 1.268}
 COUPLED_WET = {"FA1": 0.2474, "FA2": 1.1807}

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from offwind_pin.definitions.element import Element
 from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.sea.sea import Sea
 from offwind_pin.loads.soil.foundation import Foundation
-from offwind_pin.structure.chain import Element, Elements, Stiffness, build_chain
-from offwind_pin.structure.pinocchio_model import Scratch, build_model
+from offwind_pin.structure.chain import Elements, Stiffness, build_chain
 
 
 def assemble(
@@ -34,11 +34,10 @@ def assemble(
         stiffness=stiffness,
         element=element,
     )
-    model = build_model(held, chain)
-    springs = np.zeros(model.nv)
+    springs = np.zeros(len(chain.joint_name))
     springs[chain.roots : chain.axis_joints] = chain.joint_stiffness.ravel()
-    damping = np.zeros(model.nv)
+    damping = np.zeros_like(springs)
     of_joint = [mass for mass in chain.sliding_mass for _ in mass.joints]
     springs[chain.axis_joints :] = [mass.stiffness for mass in of_joint]
     damping[chain.axis_joints :] = [mass.damping for mass in of_joint]
-    return System(held, foundation, chain, sea, model, springs, damping, {}, Scratch(model))
+    return System(held, foundation, chain, sea, springs, damping, {})

@@ -6,11 +6,12 @@ from offwind_pin.analysis.assemble import assemble
 from offwind_pin.analysis.foundation.registry import make_foundation
 from offwind_pin.analysis.structural_damping import StructuralDamping, calibrate_damping
 from offwind_pin.base.errors import InputError
+from offwind_pin.definitions.element import Element
 from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.sea.sea import Sea, StillWater
 from offwind_pin.loads.soil.foundation import Foundation
-from offwind_pin.structure.chain import Element, Elements, Stiffness
+from offwind_pin.structure.chain import Elements, Stiffness
 
 
 def build(

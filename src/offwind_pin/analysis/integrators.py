@@ -4,22 +4,21 @@ from __future__ import annotations
 
 import logging
 from dataclasses import dataclass
-from typing import Any, Literal, NamedTuple, Protocol
+from typing import Any, ClassVar, Literal, NamedTuple, Protocol
 
 import numpy as np
-from scipy.integrate import solve_ivp
 
 from offwind_pin.analysis.static import load_scale
 from offwind_pin.base.definition import Array
+from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError
-from offwind_pin.dynamics.compiled.chain import CompiledChain, Run
+from offwind_pin.definitions.engine import Engine
+from offwind_pin.dynamics.compiled.chain import CompiledChain
 from offwind_pin.dynamics.compiled.recorder_arrays import Cuts, RecorderArrays, Segments
 from offwind_pin.solvers.generalized_alpha import (
     CONVERGED,
     REASONS,
     Method,
-    compiled_advance,
-    start,
 )
 from offwind_pin.solvers.steps import FixedStep, StepPolicy
 
@@ -67,7 +66,12 @@ Records = dict[str, Array]
 
 
 class Integrator(Protocol):
-    """Takes a system from one instant to the next ones."""
+    """Takes a system from one instant to the next ones.
+
+    engines : that evaluate the equations of motion for it, the default first
+    """
+
+    engines: ClassVar[tuple[Engine, ...]]
 
     def begin(self, chain: CompiledChain, q: Array, interval: float) -> MotionState:
         """State at time 0, at rest at joint displacements q; interval between outputs in s.
@@ -99,7 +103,7 @@ class _Crossed(NamedTuple):
 
 @dataclass(frozen=True)
 class GeneralizedAlpha:
-    """Generalised-alpha with modified Newton, in compiled code.
+    """Generalised-alpha with modified Newton.
 
     Attributes
     ----------
@@ -113,14 +117,16 @@ class GeneralizedAlpha:
     relative_tolerance: float = 1e-5
     increment_tolerance: float = 1e-8
 
+    engines: ClassVar[tuple[Engine, ...]] = ("compiled", "pinocchio")
+
+    __repr__ = one_line
+
     def __post_init__(self) -> None:
         if not 0 <= self.spectral_radius <= 1:
             raise InputError("spectral_radius", self.spectral_radius, "0 to 1", "Correct it.")
 
     def begin(self, chain: CompiledChain, q: Array, interval: float) -> MotionState:
-        row = chain.rows(np.zeros(1))[0]
-        vectors = start(chain, row, q, np.zeros_like(q))
-        return _at_start(chain, vectors, self.policy.first(interval))
+        return _at_start(chain, chain.start(q), self.policy.first(interval))
 
     def cross(
         self, chain: CompiledChain, sections: Sections, state: MotionState, times: Array
@@ -180,16 +186,13 @@ class GeneralizedAlpha:
         )
         recorder = _resumed_recorder(chain, sections, state, state.steps, len(times))
         vectors, last = state.vectors.copy(), np.zeros(state.vectors.shape[1])
-        rows = chain.rows(instants)
         chain.memory = state.memory
         try:
-            with chain.running():
-                done, reason, error = compiled_advance(
-                    Run(chain.arrays, recorder), method, vectors, rows, last
-                )
+            done, reason, error = chain.advance(recorder, method, vectors, instants, last)
         except np.linalg.LinAlgError:
-            reason = "the iteration matrix is singular"
-            return StepFailed(reason, instants[0], last, self._number(instants[0], interval))
+            first = float(instants[0])
+            number = self._number(first, interval)
+            return StepFailed("the iteration matrix is singular", first, last, number)
         if reason != CONVERGED:
             number = self._number(instants[done], interval)
             return StepFailed(REASONS[reason], float(instants[done]), last, number)
@@ -228,6 +231,10 @@ class SciPyIVP:
     relative_tolerance: float = 1e-8
     absolute_tolerance: float = 1e-10
 
+    engines: ClassVar[tuple[Engine, ...]] = ("pinocchio",)
+
+    __repr__ = one_line
+
     def begin(self, chain: CompiledChain, q: Array, interval: float) -> MotionState:
         if len(chain.memory):
             raise InputError(
@@ -243,6 +250,8 @@ class SciPyIVP:
     def cross(
         self, chain: CompiledChain, sections: Sections, state: MotionState, times: Array
     ) -> tuple[MotionState, Records]:
+        from scipy.integrate import solve_ivp
+
         equations = chain.equations()
         n = state.vectors.shape[1]
 

@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from offwind_pin.analysis.engines import check_engine, pencil
 from offwind_pin.analysis.static import StaticResult, static
 from offwind_pin.base.definition import Array
+from offwind_pin.base.descriptions import cut, html_table
 from offwind_pin.base.errors import InputError
-from offwind_pin.base.mode_labels import FAMILIES
-from offwind_pin.dynamics.reference.equations import Equations
+from offwind_pin.base.mode_labels import FAMILIES, mode_name
+from offwind_pin.definitions.engine import Engine
 from offwind_pin.dynamics.system import System
-from offwind_pin.solvers.eigen import natural_modes
+
+if TYPE_CHECKING:
+    from offwind_pin.dynamics.reference.dense_pencil import DensePencil
 
 _FAMILY_OF_JOINT = {"px": "FA", "ry": "FA", "py": "SS", "rx": "SS", "rz": "T", "pz": "V"}
 _MOSTLY = 0.5
@@ -42,6 +47,7 @@ class ModalResult:
     mass_normalised : (n, m, 6) the same, with unit modal mass
     vector : (nv, n) mass-normalised joint displacements
     shape_peak_height_ratio : (n,) height of the peak from mudline (0) to yaw bearing (1)
+    engine : that evaluated the equations
     """
 
     frequency_hz: Array
@@ -54,6 +60,29 @@ class ModalResult:
     mass_normalised: Array
     vector: Array
     shape_peak_height_ratio: Array
+    engine: Engine = "compiled"
+
+    def __repr__(self) -> str:
+        found = [
+            f"{label} {frequency:.4g} Hz"
+            for label, frequency in zip(self.label, self.frequency_hz, strict=True)
+        ]
+        return cut(f"ModalResult({', '.join(found)})")
+
+    def _repr_html_(self) -> str:
+        """A table for notebooks."""
+        rows = [
+            (label, mode_name(label), f"{f:.4f}", f"{100 * zeta:.2f}", f"{peak:.2f}")
+            for label, f, zeta, peak in zip(
+                self.label,
+                self.frequency_hz,
+                self.damping_ratio,
+                self.shape_peak_height_ratio,
+                strict=True,
+            )
+        ]
+        columns = ("mode", "", "frequency (Hz)", "damping ratio (%)", "peak over height")
+        return html_table("Natural modes", columns, rows)
 
     def index(self, label: str) -> int:
         """Position of a label.
@@ -73,41 +102,49 @@ class ModalResult:
         return list(FAMILIES)[int(np.argmax(self.participation[self.index(label)]))]
 
 
-def modes(system: System, n: int = 8, about: StaticResult | None = None) -> ModalResult:
+def modes(
+    system: System,
+    n: int = 8,
+    about: StaticResult | None = None,
+    *,
+    engine: Engine = "compiled",
+) -> ModalResult:
     """Natural modes with added mass, soil tangent and geometric stiffness of a static state.
 
     Parameters
     ----------
     n : number of modes
     about : static state; by default that under gravity alone
+    engine : what evaluates the equations: ``"compiled"`` or ``"pinocchio"``; the matrices of the
+        eigenproblem come from Pinocchio with either
 
     Raises
     ------
-    InputError : n outside 1 ... number of degrees of freedom
+    InputError : n outside 1 ... number of degrees of freedom, or an unknown engine
     SolverError : the static state was not found
     """
+    check_engine(engine)
     if not 1 <= n <= system.nv:
         raise InputError("n", n, f"1 to {system.nv}", "Ask for fewer modes, or use more elements.")
-    state = about or static(system)
+    state = about or static(system, engine=engine)
     if state.q.shape != (system.nv,):
         allowed = f"a static state of this system, with {system.nv} degrees of freedom"
         raise InputError("about", f"one with {len(state.q)}", allowed, "Solve statics anew.")
-    rest = np.zeros(system.nv)
-    equations = system.equations(state.loads, None, state.memory)
-    stiffness, damping = equations.tangents(0.0, state.q, rest)
+    linear = pencil(system, state, engine)
     # One mode more than asked for, so that no pair of equal frequency is cut in two; and more where
     # dampers split modes, so that labels do not depend on how many are asked for.
     count = n + 1 + 2 * (system.nv - system.chain.axis_joints)
-    found = natural_modes(stiffness, equations.mass(state.q), min(count, system.nv))
-    vectors = _separate_planes(system, stiffness, *found)
-    participation = _participation(system, stiffness, vectors)
-    share = _damper_share(system, stiffness, vectors)
+    found = linear.lowest(min(count, system.nv))
+    vectors = _separate_planes(system, linear, *found)
+    work = vectors * linear.stiffness_times(vectors)
+    participation = _participation(system, work)
+    share = _damper_share(system, vectors, work)
     label, family = (part[:n] for part in _labels(participation, share, _sliding(system)))
     vectors = vectors[:, :n]
     omega = np.sqrt(found[0][:n])
-    dissipation = np.sum(vectors * (damping @ vectors), axis=0)
+    dissipation = np.sum(vectors * linear.damping_times(vectors), axis=0)
     height = system.chain.boundary
-    shape = np.array([_axis_shape(equations, state.q, vector, height) for vector in vectors.T])
+    shape = np.array([linear.axis_shape(vector, height) for vector in vectors.T])
     peak = np.empty(n)
     unit = np.empty_like(shape)
     normalised = np.empty_like(shape)
@@ -132,26 +169,28 @@ def modes(system: System, n: int = 8, about: StaticResult | None = None) -> Moda
         mass_normalised=normalised,
         vector=vectors,
         shape_peak_height_ratio=(peak - mudline) / (top - mudline),
+        engine=engine,
     )
 
 
-def _participation(system: System, stiffness: Array, vectors: Array) -> Array:
-    """(n, 4) share of each family's joints in the potential energy of each mode."""
-    work = vectors * (stiffness @ vectors)
+def _participation(system: System, work: Array) -> Array:
+    """(n, 4) share of each family's joints in the potential energy of each mode.
+
+    work : (nv, n) of each joint in each mode
+    """
     kind = _family_of_joints(system)
     energy = np.array([work[kind == family].sum(axis=0) for family in FAMILIES]).T
     return energy / energy.sum(axis=1, keepdims=True)
 
 
-def _damper_share(system: System, stiffness: Array, vectors: Array) -> Array:
+def _damper_share(system: System, vectors: Array, work: Array) -> Array:
     """(n,) share of the tuned mass dampers' springs in the potential energy of each mode."""
-    work = vectors * (stiffness @ vectors)
     springs = system.joint_stiffness[system.chain.axis_joints :, None]
     stored = np.sum(springs * vectors[system.chain.axis_joints :] ** 2, axis=0)
     return np.asarray(stored / work.sum(axis=0))
 
 
-def _separate_planes(system: System, stiffness: Array, squares: Array, vectors: Array) -> Array:
+def _separate_planes(system: System, linear: DensePencil, squares: Array, vectors: Array) -> Array:
     """Turn pairs of equal frequency so that one moves fore-aft and the other side-side.
 
     On a structure that is the same in every direction any two normal directions are modes.
@@ -161,7 +200,7 @@ def _separate_planes(system: System, stiffness: Array, squares: Array, vectors: 
     for i in range(len(squares) - 1):
         if abs(squares[i + 1] - squares[i]) <= _EQUAL * abs(squares[i + 1]):
             pair = turned[:, i : i + 2]
-            energy = pair[fore_aft].T @ (stiffness @ pair)[fore_aft]
+            energy = pair[fore_aft].T @ linear.stiffness_times(pair)[fore_aft]
             _, rotation = np.linalg.eigh((energy + energy.T) / 2)
             turned[:, i : i + 2] = pair @ rotation
     return turned
@@ -191,14 +230,6 @@ def _labels(
                 mode_of[i] = "TMD"
     label = [f"{name}{mode_of[: i + 1].count(name)}" for i, name in enumerate(mode_of)]
     return label, family
-
-
-def _axis_shape(equations: Equations, q: Array, vector: Array, height: Array) -> Array:
-    """(m, 6) displacement and rotation of the axis per unit of a modal vector."""
-    motion = equations.chain_motion(q, vector)
-    body = equations.chain.body_at(height)
-    points = motion.points_at(height)
-    return np.concatenate([points.velocity, motion.twist[body, 3:]], axis=1)
 
 
 def _peak_height(height: Array, size: Array, at: int) -> float:

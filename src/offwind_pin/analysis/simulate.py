@@ -11,6 +11,7 @@ import numpy as np
 import xarray as xr
 
 from offwind_pin.analysis.drawing_data import scenery, told
+from offwind_pin.analysis.engines import engine_of, moving_chain
 from offwind_pin.analysis.integrators import (
     GeneralizedAlpha,
     Integrator,
@@ -25,6 +26,7 @@ from offwind_pin.analysis.wave_checks import check_waves, wave_facts
 from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError, InterruptedSimulation, SolverError
 from offwind_pin.base.fingerprint import NoFingerprintError, content_hash
+from offwind_pin.definitions.engine import Engine
 from offwind_pin.dynamics.acting_loads import smooth_ramp
 from offwind_pin.dynamics.compiled.chain import CompiledChain
 from offwind_pin.dynamics.system import System
@@ -58,6 +60,7 @@ def simulate(
     output_dt: float | None = None,
     spectral_radius: float = 0.9,
     integrator: Integrator | None = None,
+    engine: Engine | None = None,
     heights: Sequence[float] | None = None,
     segments: Sequence[tuple[float, float]] | None = None,
     directory: Path | str | None = None,
@@ -84,6 +87,9 @@ def simulate(
     spectral_radius : numerical damping at infinite frequency, 1 for none
     integrator : instead of ``dt`` and ``spectral_radius``, see
         :mod:`offwind_pin.analysis.integrators`
+    engine : what evaluates the equations of motion: ``"compiled"``, the default, or
+        ``"pinocchio"``, the only one for :class:`SciPyIVP`. What is recorded is evaluated from
+        joint displacements, velocities and accelerations by compiled code with either
     heights : in m, where motion and section loads are recorded, by default the element boundaries;
         mudline and yaw bearing are added
     segments : pairs of heights in m whose equilibrium is recorded as ``segment_imbalance``, by
@@ -120,22 +126,24 @@ def simulate(
         )
     interval = dt if output_dt is None else output_dt
     method = integrator or GeneralizedAlpha(FixedStep(dt), spectral_radius)
+    engine = engine_of(method, engine)
     outputs = round(duration / interval)
     if abs(outputs * interval - duration) > 1e-6 * duration:
         raise InputError(
             "duration", duration, f"a multiple of {interval} s, the output's interval", "Adjust it."
         )
     acting = [_point_load(system, load, ramp, duration) for load in loads]
-    chain = CompiledChain(system, acting, ramp, ground_motion)
+    chain = moving_chain(system, acting, ramp, ground_motion, engine)
     parts = _segments(system, segments)
     sections = chain.sections(_recorded_heights(system, heights, parts), parts)
     q = np.zeros(system.nv)
     if start == "static":
-        resting = static(system, loads=acting)
+        resting = static(system, loads=acting, engine=engine)
         q, chain.memory = resting.q, resting.memory
     state = method.begin(chain, q, interval)
     check_waves(system, duration, ramp, method.describe().get("dt_s"))
-    attributes = _provenance(system, chain.acting, ramp, interval, method) | {"start": start}
+    attributes = _provenance(system, chain.acting, ramp, interval, method)
+    attributes |= {"engine": engine, "start": start}
     if ground_motion is not None:
         attributes |= _told_of(ground_motion, dt, duration)
     attributes |= provenance or {}

@@ -7,9 +7,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from offwind_pin.analysis.engines import resting_chain
 from offwind_pin.base.definition import Array
+from offwind_pin.base.descriptions import html_table
 from offwind_pin.base.errors import InputError, SolverError
-from offwind_pin.dynamics.compiled.chain import CompiledChain
+from offwind_pin.definitions.engine import Engine
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.point_load import PointLoad
 from offwind_pin.loads.tower_top.load_history import constant_load
@@ -35,6 +37,7 @@ class StaticResult:
     residual : largest entry of the residual over the load scale
     memory : (k,) what soil and foundation keep of their past once this load has acted
     loads : that act
+    engine : that evaluated the equations
     """
 
     q: Array
@@ -47,6 +50,30 @@ class StaticResult:
     mudline: float
     memory: Array = field(repr=False)
     loads: tuple[PointLoad, ...] = field(repr=False)
+    engine: Engine = "compiled"
+
+    def __repr__(self) -> str:
+        x, z = self.tower_top_displacement[[0, 2]]
+        moment = self.mudline_load[4] / 1e6
+        return (
+            f"StaticResult(tower top at x {x:.4g} m, z {z:.4g} m, mudline moment My {moment:.4g} "
+            f"MN m, {self.iterations} iterations)"
+        )
+
+    def _repr_html_(self) -> str:
+        """A table for notebooks."""
+        rows = [
+            (
+                f"{z:.2f}",
+                *(f"{value:.4g}" for value in (*u[:3], *np.degrees(turn[:2]), *load / 1e6)),
+            )
+            for z, u, turn, load in zip(
+                self.height, self.displacement, self.rotation, self.section_load, strict=True
+            )
+        ]
+        columns = ("z (m)", "x (m)", "y (m)", "z displacement (m)", "rx (deg)", "ry (deg)")
+        loads = ("Fx (MN)", "Fy (MN)", "Fz (MN)", "Mx (MN m)", "My (MN m)", "Mz (MN m)")
+        return html_table(repr(self), columns + loads, rows[::-1])
 
     @property
     def tower_top_displacement(self) -> Array:
@@ -79,6 +106,7 @@ def static(
     *,
     loads: Sequence[PointLoad] = (),
     after: StaticResult | None = None,
+    engine: Engine = "compiled",
 ) -> StaticResult:
     """Static equilibrium by Newton's method with the exact tangent.
 
@@ -90,16 +118,17 @@ def static(
     tower_top_load : (6,) Fx, Fy, Fz, Mx, My, Mz at the yaw bearing in N and N m, inertial frame
     loads : further point loads
     after : state of the same system whose load acted before, which soil with a memory remembers
+    engine : what evaluates the equations: ``"compiled"`` or ``"pinocchio"``
 
     Raises
     ------
-    InputError : a load that is not six finite numbers
+    InputError : a load that is not six finite numbers, or an unknown engine
     SolverError : no equilibrium found, with the joint out of balance; or one that is unstable
     """
     acting = [*loads]
     if tower_top_load is not None:
         acting.append(constant_load(system.chain.top, tower_top_load))
-    chain = CompiledChain(system, acting)
+    chain = resting_chain(system, acting, engine)
     row = chain.mean_inputs()
     rest = np.zeros(system.nv)
     scale = load_scale(system)
@@ -137,19 +166,19 @@ def static(
             joint=joint,
             residual=float(np.max(np.abs(result.residual))),
         )
-    chain.commit(row, result.x)
-    state = chain.record(chain.sections(system.chain.boundary), row, result.x, rest, rest)
+    state = chain.at_rest(row, result.x, system.chain.boundary)
     return StaticResult(
         q=result.x,
         height=system.chain.boundary,
-        displacement=state.displacement[0],
-        rotation=_axis_rotation(chain, system.chain.boundary),
-        section_load=state.section_load[0],
+        displacement=state.displacement,
+        rotation=axis_rotation(state.direction),
+        section_load=state.section_load,
         iterations=result.iterations,
         residual=float(np.max(np.abs(result.residual))) / scale,
         mudline=system.turbine.site.mudline,
         memory=chain.memory,
         loads=tuple(acting),
+        engine=engine,
     )
 
 
@@ -160,12 +189,6 @@ def load_scale(system: System) -> float:
     """
     chain = system.chain
     return system.turbine.site.gravity * chain.mass * (chain.top - chain.base) / 100
-
-
-def _axis_rotation(chain: CompiledChain, height: Array) -> Array:
-    """(m, 3) rotation of the axis at heights (m,), of the state last evaluated."""
-    body = chain.system.chain.body_at(height)
-    return axis_rotation(chain.arrays.rotation[body, :, 2])
 
 
 def axis_rotation(axis: Array) -> Array:

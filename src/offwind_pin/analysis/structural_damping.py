@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import nnls
 
 from offwind_pin.analysis.modal import ModalResult, modes
 from offwind_pin.base.definition import Array
@@ -65,7 +64,7 @@ def calibrate_damping(undamped: System, calibration: DampingCalibration) -> Stru
         columns.append(_modal_ratios(undamped, result, index, damping))
     matrix = np.array(columns).T
     wanted = np.array([calibration.ratios[label] for label in labels])
-    factors, _ = nnls(matrix / wanted[:, None], np.ones(len(wanted)))
+    factors = _non_negative_least_squares(matrix / wanted[:, None], np.ones(len(wanted)))
     achieved = matrix @ factors
     return StructuralDamping(
         {
@@ -74,6 +73,20 @@ def calibrate_damping(undamped: System, calibration: DampingCalibration) -> Stru
         },
         dict(zip(labels, achieved.tolist(), strict=True)),
     )
+
+
+def _non_negative_least_squares(matrix: Array, wanted: Array) -> Array:
+    """Least squares with non-negative unknowns.
+
+    A unique unconstrained solution that is not negative is the answer. SciPy's optimisers, which
+    are slow to import, are needed otherwise only.
+    """
+    free, _, rank, _ = np.linalg.lstsq(matrix, wanted)
+    if rank == matrix.shape[1] and np.all(free >= 0):
+        return np.asarray(free)
+    from scipy.optimize import nnls
+
+    return np.asarray(nnls(matrix, wanted)[0])
 
 
 def _modal_ratios(system: System, result: ModalResult, index: list[int], damping: Array) -> Array:

@@ -2,8 +2,6 @@
 
 from typing import Any
 
-import numpy as np
-
 
 class OffwindError(Exception):
     """Base of every error this package raises on purpose."""
@@ -73,6 +71,7 @@ class InterruptedSimulation(OffwindError):
 
 
 def _shorten(value: object, limit: int = 240) -> str:
-    plain = value.item() if isinstance(value, np.generic) else value  # 18.0, no np.float64(18.0)
+    # 18.0 rather than np.float64(18.0); NumPy is not imported for the sake of messages.
+    plain = getattr(value, "item", lambda: value)() if getattr(value, "shape", 1) == () else value
     text = plain if isinstance(plain, str) and " " in plain else repr(plain)
     return text if len(text) <= limit else text[: limit - 3] + "..."

@@ -7,10 +7,11 @@ import uuid
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import netCDF4
-import xarray as xr
+if TYPE_CHECKING:
+    import xarray as xr
+
 
 _FULL_PRECISION = {
     "time",
@@ -60,6 +61,8 @@ def write_netcdf(path: Path, data: xr.Dataset) -> None:
 
 def append_netcdf(path: Path, parts: Iterator[xr.Dataset]) -> None:
     """The same out of datasets that follow one another along ``time``, one at a time in memory."""
+    import netCDF4
+
     with whole_file(path) as temporary:
         first = next(parts)
         unlimited = ["time"] if "time" in first.sizes else []

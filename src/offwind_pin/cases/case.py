@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from importlib import resources
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -14,8 +13,11 @@ from offwind_pin.cases.schema.earthquake import Earthquake
 from offwind_pin.cases.schema.sea import SeaChoice
 from offwind_pin.cases.schema.tower_top import TowerTopLoadChoice
 from offwind_pin.cases.schema.tower_wind import TowerWindChoice
+from offwind_pin.cases.shipped import shipped_cases
+from offwind_pin.definitions.element import Element
+from offwind_pin.definitions.engine import Engine
 from offwind_pin.definitions.reader import find_definition, read_model
-from offwind_pin.structure.chain import MOST_ELEMENTS, Element
+from offwind_pin.structure.chain import MOST_ELEMENTS
 
 
 def _known_foundation(name: str) -> str:
@@ -36,9 +38,11 @@ class StaticAnalysis(Definition):
 
     settle : for how long the undeformed structure is followed in time as it comes to rest under
         gravity, beside the direct solution; or None
+    engine : what evaluates the equations of motion
     """
 
     kind: Literal["static"]
+    engine: Engine = "compiled"
     compare_with: FoundationName | None = None
     settle: Annotated[Positive, Field(ge=10, le=1e5)] | None = Field(alias="settle_s", default=None)
 
@@ -70,17 +74,23 @@ class ModalAnalysis(Definition):
     """Natural modes about the static state under gravity.
 
     identify : whether the fore-aft modes are taken out of accelerations as well
+    engine : what evaluates the equations of motion
     """
 
     kind: Literal["modes"]
+    engine: Engine = "compiled"
     count: Annotated[int, Field(ge=1, le=50)] = 8
     identify: Identification | None = None
 
 
 class TransientAnalysis(Definition):
-    """Time histories, and the spectrum of the fore-aft moment at the mudline after the ramp."""
+    """Time histories, and the spectrum of the fore-aft moment at the mudline after the ramp.
+
+    engine : what evaluates the equations of motion
+    """
 
     kind: Literal["transient"]
+    engine: Engine = "compiled"
     duration: Annotated[Positive, Field(le=1e5)] = Field(alias="duration_s")
     ramp: NonNegative = Field(alias="ramp_s")
     dt: Annotated[Positive, Field(le=1)] = Field(alias="dt_s")
@@ -156,13 +166,6 @@ class Case(Definition):
                 "out, or use analysis kind transient"
             )
         return self
-
-
-def shipped_cases() -> list[str]:
-    """Names of the cases that come with the package."""
-    folder = resources.files("offwind_pin.cases") / "oc6_phase2"
-    names = [entry.name for entry in folder.iterdir() if entry.name.endswith(".yaml")]
-    return sorted(f"oc6-{name.removesuffix('.yaml')}" for name in names)
 
 
 def load_case(name_or_path: str | Path) -> tuple[Case, Path]:

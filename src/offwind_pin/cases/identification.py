@@ -17,10 +17,11 @@ from offwind_pin.analysis.modal import ModalResult
 from offwind_pin.analysis.simulate import simulate
 from offwind_pin.base.definition import Array
 from offwind_pin.cases.case import Identification
+from offwind_pin.definitions.engine import Engine
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.tower_top.load_history import LoadHistory
-from offwind_pin.signal.operational_modes.identify import IdentifiedModes, operational_modes
-from offwind_pin.signal.operational_modes.modal_assurance import modal_assurance
+from offwind_pin.signal.modal_identification.identify import IdentifiedModes, operational_modes
+from offwind_pin.signal.modal_identification.modal_assurance import modal_assurance
 
 Progress = Callable[[float, float], None]
 
@@ -49,7 +50,7 @@ def identify(
     """
     height = np.linspace(system.turbine.site.mudline, system.chain.top, asked.nodes)
     rows = [modes.index(label) for label in LABELS]
-    data = _shaken(system, height, asked.duration, seed, progress)
+    data = _shaken(system, height, asked.duration, seed, modes.engine, progress)
     channels = data["acceleration"].sel(direction="x").sel(height=height, method="nearest")
     record = channels.to_numpy()[data["time"].to_numpy() >= SETTLING]
     moves = np.ptp(record, axis=0) > 0  # not the mudline of a clamped base
@@ -131,7 +132,12 @@ def identified_variables(result: IdentifiedModes) -> dict[str, xr.DataArray]:
 
 
 def _shaken(
-    system: System, height: Array, duration: float, seed: int, progress: Progress | None
+    system: System,
+    height: Array,
+    duration: float,
+    seed: int,
+    engine: Engine,
+    progress: Progress | None,
 ) -> xr.Dataset:
     """Time history under white noise in Fx and My at the yaw bearing."""
     steps = round((SETTLING + duration) / STEP)
@@ -146,6 +152,7 @@ def _shaken(
         [LoadHistory(time, load, f"white noise, seed {seed}")],
         ramp=20.0,
         spectral_radius=1.0,  # no numerical damping, which would be identified too
+        engine=engine,
         heights=height.tolist(),
         segments=[],
         progress=None if progress is None else lambda now: progress(now, steps * STEP),

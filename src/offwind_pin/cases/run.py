@@ -54,8 +54,8 @@ from offwind_pin.loads.wind.synthetic_thrust import operate_rotor
 from offwind_pin.results.blocks import time_reached
 from offwind_pin.results.dataset import versions
 from offwind_pin.results.states import modal_dataset, static_dataset
+from offwind_pin.signal.modal_identification.identify import IdentifiedModes
 from offwind_pin.signal.moment_spectrum import MomentSpectrum, moment_spectrum
-from offwind_pin.signal.operational_modes.identify import IdentifiedModes
 from offwind_pin.structure.urdf import definition_hash
 
 Progress = Callable[[float, float], None]
@@ -134,11 +134,11 @@ def _solve_static(
     progress: Progress | None,
 ) -> CaseResult:
     system = _build(case, turbine, case.foundation, folder)
-    state = static(system)
+    state = static(system, engine=analysis.engine)
     summary = summarise_static(state) | {"foundation": case.foundation}
     statics: dict[str, StaticResult] = {case.foundation: state}
     if analysis.compare_with is not None:
-        other = static(_build(case, turbine, analysis.compare_with, folder))
+        other = static(_build(case, turbine, analysis.compare_with, folder), engine=analysis.engine)
         reference = float(other.tower_top_displacement[0])
         statics[analysis.compare_with] = other
         summary[f"{analysis.compare_with}_tower_top_x_m"] = reference
@@ -162,8 +162,8 @@ def _solve_modes(
     progress: Progress | None,
 ) -> CaseResult:
     system = _build(case, turbine, case.foundation, folder)
-    state = static(system)
-    result = modes(system, analysis.count, state)
+    state = static(system, engine=analysis.engine)
+    result = modes(system, analysis.count, state, engine=analysis.engine)
     table = summarise_modes(result)
     summary: dict[str, Any] = {"foundation": case.foundation, "modes": table}
     summary |= _frequencies(result)
@@ -203,13 +203,14 @@ def _solve_transient(
         [*top.loads, *wind],
         ramp=analysis.ramp,
         ground_motion=None if shaking is None else shaking.motion,
+        engine=analysis.engine,
         output_dt=analysis.output_dt,
         directory=out,
         provenance={"case": case.name, "seed": case.seed, **top.provenance},
         progress=None if progress is None else lambda now: progress(now, analysis.duration),
     )
-    state = static(system, top.mean, loads=wind)
-    result = modes(system, min(8, system.nv), state)
+    state = static(system, top.mean, loads=wind, engine=analysis.engine)
+    result = modes(system, min(8, system.nv), state, engine=analysis.engine)
     marked = _marked(case, result, top.blade_passing_frequency)
     spectrum = moment_spectrum(data, analysis.psd_segment, marked)
     summary = summarise_spectrum(data, spectrum)
@@ -279,7 +280,11 @@ def static_to_dataset(system: System, state: StaticResult) -> xr.Dataset:
         rotation=state.rotation,
         section_load=state.section_load,
         attributes=_attributes(system)
-        | {"iterations": state.iterations, "residual": state.residual},
+        | {
+            "engine": state.engine,
+            "iterations": state.iterations,
+            "residual": state.residual,
+        },
     )
 
 
@@ -292,7 +297,7 @@ def modes_to_dataset(system: System, result: ModalResult) -> xr.Dataset:
         damping_ratio=result.damping_ratio,
         shape=result.shape,
         mass_normalised=result.mass_normalised,
-        attributes=_attributes(system) | told(system),
+        attributes=_attributes(system) | told(system) | {"engine": result.engine},
         constants=outline(system),
     )
 

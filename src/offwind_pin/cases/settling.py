@@ -34,6 +34,7 @@ def settle(
         duration,
         STEP,
         start="undeformed",
+        engine=state.engine,
         output_dt=_OUTPUT,
         heights=state.height.tolist(),
         progress=None if progress is None else lambda now: progress(now, duration),

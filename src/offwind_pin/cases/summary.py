@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import xarray as xr
 
 from offwind_pin.analysis.modal import ModalResult
 from offwind_pin.analysis.static import StaticResult
 from offwind_pin.dynamics.system import System
 from offwind_pin.signal.moment_spectrum import BANDS_HZ, MomentSpectrum
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 def summarise_modes(result: ModalResult) -> list[dict[str, Any]]:

@@ -1,79 +1,102 @@
-"""The command line: thin, with messages a person can act on and exit codes a script can read."""
+"""The command line: thin, with messages a person can act on and exit codes a script can read.
+
+Each command imports what it needs when it runs, so that help and completion are quick.
+"""
 
 from __future__ import annotations
 
 import json
-import logging
-import shlex
-import webbrowser
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-import numpy as np
 import typer
-import xarray as xr
-from rich.console import Console
-from rich.table import Table
 
-from offwind_pin.analysis.build import build
-from offwind_pin.analysis.foundation.registry import FOUNDATIONS
-from offwind_pin.analysis.foundation.study.study import soil_overview
-from offwind_pin.analysis.modal import modes
-from offwind_pin.analysis.static import static
-from offwind_pin.base.definition import Array
-from offwind_pin.base.errors import InputError
-from offwind_pin.base.mode_labels import mode_name
-from offwind_pin.base.whole_files import write_text
-from offwind_pin.cases.case import load_case, shipped_cases
-from offwind_pin.cases.output_directory import check_writable
-from offwind_pin.cases.run import modes_to_dataset, run_case
-from offwind_pin.cases.summary import summarise_damping, summarise_modes, summarise_static
-from offwind_pin.cases.turbine_overview import overview
+from offwind_pin.cases.shipped import shipped_cases
 from offwind_pin.cli.exit_codes import EXIT_SYSTEM
-from offwind_pin.cli.progress import frames_progress, rows_progress, simulation_progress
-from offwind_pin.cli.tables import (
-    print_notes,
-    print_outcomes,
-    print_overview,
-    print_soil,
-    print_surrogate,
-)
-from offwind_pin.definitions.reader import load_turbine, shipped_turbines
-from offwind_pin.display.report.soil_folder import write_soil
-from offwind_pin.display.viewer.mode_page import animate
-from offwind_pin.display.viewer.serve import address, page_server
-from offwind_pin.display.viewer.stills import check_frames, check_still
-from offwind_pin.display.viewer.view import FPS, View
-from offwind_pin.formats.urdf_folder import export_urdf
-from offwind_pin.loads.sea.sea import StillWater
-from offwind_pin.results.reading import open_results
-from offwind_pin.structure.chain import Element
-from offwind_pin.verification.ledger import choose, verify
-from offwind_pin.verification.page import verification_page
+from offwind_pin.cli.foundation_names import FOUNDATION_NAMES
+from offwind_pin.definitions.element import Element
+from offwind_pin.definitions.engine import Engine
+from offwind_pin.definitions.shipped import shipped_turbines
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from offwind_pin.base.definition import Array
 
 app = typer.Typer(
-    help="Structural dynamics of monopile offshore wind turbines.",
     no_args_is_help=True,
-    add_completion=False,
     pretty_exceptions_enable=False,
 )
 
+
+def _starting(names: list[str], begin: str) -> list[str]:
+    return [name for name in names if name.startswith(begin)]
+
+
+def _complete_turbine(incomplete: str) -> list[str]:
+    return _starting(shipped_turbines(), incomplete)
+
+
+def _complete_case(incomplete: str) -> list[str]:
+    return _starting(shipped_cases(), incomplete)
+
+
+def _complete_foundation(incomplete: str) -> list[str]:
+    return _starting(list(FOUNDATION_NAMES), incomplete)
+
+
+def _print_version(asked: bool) -> None:  # noqa: FBT001 (the value of the option)
+    if asked:
+        import offwind_pin
+
+        print(f"offwind {offwind_pin.__version__}")  # noqa: T201
+        raise typer.Exit
+
+
+@app.callback()
+def _options(
+    version: Annotated[  # noqa: FBT002
+        bool,
+        typer.Option(
+            "--version", callback=_print_version, is_eager=True, help="Print the version and exit."
+        ),
+    ] = False,
+) -> None:
+    """Structural dynamics of monopile offshore wind turbines."""
+
+
 TurbineArgument = Annotated[
-    str, typer.Argument(help=f"Shipped name ({', '.join(shipped_turbines())}) or a YAML file.")
+    str,
+    typer.Argument(
+        help=f"Shipped name ({', '.join(shipped_turbines())}) or a YAML file.",
+        autocompletion=_complete_turbine,
+    ),
 ]
-FoundationOption = Annotated[str, typer.Option(help=f"One of {', '.join(FOUNDATIONS)}.")]
+FoundationOption = Annotated[
+    str,
+    typer.Option(
+        help=f"One of {', '.join(FOUNDATION_NAMES)}.", autocompletion=_complete_foundation
+    ),
+]
 ElementsOption = Annotated[int | None, typer.Option(help="Multibody beam elements in all.")]
 ElementOption = Annotated[
     Element, typer.Option(help="euler_bernoulli, or timoshenko for elements that shear as well.")
+]
+EngineOption = Annotated[
+    Engine, typer.Option(help="What evaluates the equations: compiled, or pinocchio.")
 ]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")]
 
 
 @app.command()
 def show(turbine: TurbineArgument, as_json: JsonOption = False) -> None:  # noqa: FBT002
-    """Print what was understood of a turbine: masses, lengths, frequencies."""
+    """Summarise the turbine as read: masses, lengths, frequencies."""
+    from offwind_pin.cases.turbine_overview import overview
+    from offwind_pin.cli.tables import print_overview
+    from offwind_pin.definitions.reader import load_turbine
+
     facts = overview(load_turbine(turbine))
     if as_json:
         _print_json(facts.as_dict())
@@ -89,33 +112,32 @@ def modes_command(
     elements: ElementsOption = None,
     element: ElementOption = "euler_bernoulli",
     count: Annotated[int | None, typer.Option(help="Number of modes, by default 8.")] = None,
+    engine: EngineOption = "compiled",
     as_json: JsonOption = False,  # noqa: FBT002
 ) -> None:
     """Natural frequencies about the static state, in still water."""
+    from offwind_pin.analysis.build import build
+    from offwind_pin.analysis.modal import modes
+    from offwind_pin.cases.summary import summarise_damping, summarise_modes
+    from offwind_pin.cli.tables import print_modes, print_notes
+    from offwind_pin.definitions.reader import load_turbine
+    from offwind_pin.loads.sea.sea import StillWater
+
     sea = None if dry else StillWater()
     system = build(load_turbine(turbine), foundation, sea, elements=elements, element=element)
-    result = modes(system, min(8, system.nv) if count is None else count)
+    result = modes(system, min(8, system.nv) if count is None else count, engine=engine)
     rows = summarise_modes(result)
     if as_json:
         about: dict[str, Any] = {
             "turbine": system.turbine.name,
             "foundation": foundation,
             "dry": dry,
+            "engine": engine,
         }
         about |= {"surrogate": system.foundation.surrogate}
         _print_json(about | {"structural_damping": summarise_damping(system), "modes": rows})
         return
-    water = "dry" if dry else "in still water"
-    table = Table("mode", "", "frequency", "damping", "peak at", title=f"{foundation}, {water}")
-    for row in rows:
-        table.add_row(
-            row["label"],
-            mode_name(row["label"]),
-            f"{row['frequency_hz']:.4f} Hz",
-            f"{100 * row['damping_ratio']:.2f} %",
-            f"{row['shape_peak_height_ratio']:.2f} of height",
-        )
-    Console().print(table)
+    print_modes(f"{foundation}, {'dry' if dry else 'in still water'}", rows)
     print_notes(system)
 
 
@@ -129,20 +151,24 @@ def static_command(
     ] = None,
     elements: ElementsOption = None,
     element: ElementOption = "euler_bernoulli",
+    engine: EngineOption = "compiled",
     as_json: JsonOption = False,  # noqa: FBT002
 ) -> None:
     """Static equilibrium under gravity and, if given, a load at the yaw bearing."""
+    from offwind_pin.analysis.build import build
+    from offwind_pin.analysis.static import static
+    from offwind_pin.cases.summary import summarise_static
+    from offwind_pin.cli.tables import print_surrogate, print_values
+    from offwind_pin.definitions.reader import load_turbine
+
     load = None if tower_top_load is None else _numbers(tower_top_load, "--tower-top-load")
     system = build(load_turbine(turbine), foundation, elements=elements, element=element)
-    summary = summarise_static(static(system, load))
+    summary = summarise_static(static(system, load, engine=engine))
     if as_json:
-        about = {"turbine": system.turbine.name, "foundation": foundation}
+        about = {"turbine": system.turbine.name, "foundation": foundation, "engine": engine}
         _print_json(about | {"surrogate": system.foundation.surrogate} | summary)
         return
-    table = Table("quantity", "value", title=f"{foundation}, static")
-    for key, value in summary.items():
-        table.add_row(key, f"{value:.6g}")
-    Console().print(table)
+    print_values(f"{foundation}, static", summary)
     print_surrogate(system.foundation.surrogate)
 
 
@@ -167,43 +193,53 @@ def soil_command(
     as_json: JsonOption = False,  # noqa: FBT002
 ) -> None:
     """Curves of the soil, their state, pushover, 6x6, apparent fixity and damping."""
+    from offwind_pin.analysis.foundation.study.study import soil_overview
+    from offwind_pin.cases.output_directory import check_writable
+    from offwind_pin.cli.tables import print_soil
+    from offwind_pin.definitions.reader import load_turbine
+    from offwind_pin.display.report.soil_folder import write_soil
+
     if out is not None:
         check_writable(out)
     acting = None if load is None else _numbers(load, "--load")
-    overview = soil_overview(
+    found = soil_overview(
         load_turbine(turbine), load=acting, result=result, arm=arm, elements=elements
     )
-    written = [] if out is None else write_soil(overview, out)
+    written = [] if out is None else write_soil(found, out)
     if as_json:
-        _print_json(overview.as_dict())
+        _print_json(found.as_dict())
         return
-    print_soil(overview)
+    print_soil(found)
     for path in written:
-        Console().print(f"Wrote {path}", soft_wrap=True)
+        typer.echo(f"Wrote {path}")
 
 
 @app.command()
 def run(
     case: Annotated[
-        str, typer.Argument(help=f"Shipped name ({', '.join(shipped_cases())}) or a YAML file.")
+        str,
+        typer.Argument(
+            help=f"Shipped name ({', '.join(shipped_cases())}) or a YAML file.",
+            autocompletion=_complete_case,
+        ),
     ],
     out: Annotated[Path, typer.Option(help="Directory for the results.")],
     as_json: JsonOption = False,  # noqa: FBT002
 ) -> None:
     """Solve a load case; write summary.json, results.nc and report.html."""
+    from offwind_pin.cases.case import load_case
+    from offwind_pin.cases.run import run_case
+    from offwind_pin.cli.progress import simulation_progress
+    from offwind_pin.cli.tables import print_values
+
     definition, folder = load_case(case)
     with simulation_progress() as progress:
         summary = run_case(definition, folder, out, progress=progress)
     if as_json:
         _print_json(summary)
         return
-    table = Table("quantity", "value", title=definition.title or definition.name)
-    for key, value in summary.items():
-        if isinstance(value, int | float | str):
-            table.add_row(key, f"{value:.6g}" if isinstance(value, float) else str(value))
-    console = Console()
-    console.print(table)
-    console.print(f"Report: {out / 'report.html'}", soft_wrap=True)
+    print_values(definition.title or definition.name, summary)
+    typer.echo(f"Report: {out / 'report.html'}")
 
 
 @app.command("animate")
@@ -216,12 +252,19 @@ def animate_command(
     dry: Annotated[bool, typer.Option("--dry", help="Without water.")] = False,  # noqa: FBT002
 ) -> None:
     """Write a self-contained page with a mode moving."""
+    from offwind_pin.analysis.build import build
+    from offwind_pin.analysis.modal import modes
+    from offwind_pin.base.whole_files import write_text
+    from offwind_pin.definitions.reader import load_turbine
+    from offwind_pin.display.viewer.mode_page import animate
+    from offwind_pin.loads.sea.sea import StillWater
+
     _check_target("--html", html, "fa2.html")
     system = build(
         load_turbine(turbine), foundation, None if dry else StillWater(), element=element
     )
     write_text(html, animate(system, modes(system, min(12, system.nv)), mode.upper()))
-    Console().print(f"Wrote {html}", soft_wrap=True)
+    typer.echo(f"Wrote {html}")
 
 
 @app.command("view")
@@ -235,7 +278,7 @@ def view_command(
     frames: Annotated[
         Path | None, typer.Option(help="New directory for numbered frames of a film.")
     ] = None,
-    fps: Annotated[float, typer.Option(help="Frames a second.")] = FPS,
+    fps: Annotated[float | None, typer.Option(help="Frames per second, by default 25.")] = None,
     start: Annotated[float | None, typer.Option(help="Start of the part shown in s.")] = None,
     duration: Annotated[float | None, typer.Option(help="Its duration in s.")] = None,
     mode_list: Annotated[
@@ -249,6 +292,15 @@ def view_command(
     browser: Annotated[bool, typer.Option(help="Open the page in a browser.")] = True,  # noqa: FBT002
 ) -> None:
     """Show results in motion: a page on this computer until Ctrl-C, or files."""
+    import shlex
+
+    from offwind_pin.base.whole_files import write_text
+    from offwind_pin.cases.output_directory import check_writable
+    from offwind_pin.cli.progress import frames_progress
+    from offwind_pin.display.viewer.stills import check_frames, check_still
+    from offwind_pin.display.viewer.view import FPS, View
+    from offwind_pin.viewer import serve
+
     for option, path, example in (("--html", html, "view.html"), ("--still", still, "view.png")):
         if path is not None:
             _check_target(option, path, example)
@@ -261,25 +313,34 @@ def view_command(
     view = View(_results_of(source, foundation, dry=dry), start, duration, labels)
     if html is not None:
         write_text(html, view.page())
-        Console().print(f"Wrote {html}", soft_wrap=True)
+        typer.echo(f"Wrote {html}")
     if still is not None:
         view.still(still)
-        Console().print(f"Wrote {still}", soft_wrap=True)
+        typer.echo(f"Wrote {still}")
     if frames is not None:
+        rate = FPS if fps is None else fps
         with frames_progress() as progress:
-            view.film(frames, fps, progress)
-        Console().print(f"Wrote {frames}; a film of it:", soft_wrap=True)
+            view.film(frames, rate, progress)
+        typer.echo(f"Wrote {frames}; a film of it:")
         pattern, name = (
             shlex.quote(str(path)) for path in (frames / "frame_%05d.png", frames.name)
         )
-        film = f"ffmpeg -framerate {fps:g} -i {pattern} -pix_fmt yuv420p {name}.mp4"
-        Console().print(film, soft_wrap=True, markup=False)
+        film = f"ffmpeg -framerate {rate:g} -i {pattern} -pix_fmt yuv420p {name}.mp4"
+        typer.echo(film)
     if (html, still, frames) == (None, None, None):
-        _serve(view.page(), port, browser=browser)
+        serve(view.page(), port, browser=browser)
 
 
 def _results_of(source: str, foundation: str, *, dry: bool) -> xr.Dataset:
     """Results read from a file; of a turbine its modes, the only thing that is solved here."""
+    from offwind_pin.analysis.build import build
+    from offwind_pin.analysis.modal import modes
+    from offwind_pin.base.errors import InputError
+    from offwind_pin.cases.run import modes_to_dataset
+    from offwind_pin.definitions.reader import load_turbine
+    from offwind_pin.loads.sea.sea import StillWater
+    from offwind_pin.results.reading import open_results
+
     path = Path(source)
     if path.is_dir() or path.suffix == ".nc":
         return open_results(path)
@@ -295,17 +356,6 @@ def _results_of(source: str, foundation: str, *, dry: bool) -> xr.Dataset:
     return modes_to_dataset(system, modes(system, min(10, system.nv)))
 
 
-def _serve(page: str, port: int, *, browser: bool) -> None:
-    """Serve a page on 127.0.0.1 until Ctrl-C."""
-    with page_server(page, port) as server:
-        url = address(server)
-        print(f"{url}   (Ctrl-C ends)", flush=True)  # noqa: T201
-        if browser:
-            webbrowser.open(url)
-        with suppress(KeyboardInterrupt):
-            server.serve_forever()
-
-
 @app.command()
 def urdf(
     turbine: TurbineArgument,
@@ -315,10 +365,15 @@ def urdf(
     element: ElementOption = "euler_bernoulli",
 ) -> None:
     """Write the URDF that Pinocchio runs, its meshes, and the sidecar with springs and dampers."""
+    from offwind_pin.analysis.build import build
+    from offwind_pin.cases.output_directory import check_writable
+    from offwind_pin.definitions.reader import load_turbine
+    from offwind_pin.formats.urdf_folder import export_urdf
+
     check_writable(out)
     system = build(load_turbine(turbine), foundation, elements=elements, element=element)
     for path in export_urdf(system, out):
-        Console().print(f"Wrote {path}", soft_wrap=True)
+        typer.echo(f"Wrote {path}")
 
 
 @app.command("verify")
@@ -329,7 +384,13 @@ def verify_command(
     page: Annotated[Path | None, typer.Option(help="File for the rows as a Markdown page.")] = None,
     as_json: JsonOption = False,  # noqa: FBT002
 ) -> None:
-    """Check every claim of the verification ledger anew; exit status 1 if a row fails."""
+    """Re-run the checks of the verification ledger; exit status 1 if a row fails."""
+    from offwind_pin.base.whole_files import write_text
+    from offwind_pin.cli.progress import rows_progress
+    from offwind_pin.cli.tables import print_outcomes
+    from offwind_pin.verification.ledger import choose, verify
+    from offwind_pin.verification.page import verification_page
+
     rows = choose(only)
     if page is not None:
         _check_target("--page", page, "VERIFICATION.md")
@@ -348,6 +409,8 @@ def verify_command(
 @contextmanager
 def _without_cautions() -> Iterator[None]:
     """Plain structures of the ledger are no turbines: cautions about them would drown its table."""
+    import logging
+
     logger = logging.getLogger("offwind_pin")
     before = logger.level
     logger.setLevel(logging.ERROR)
@@ -359,6 +422,10 @@ def _without_cautions() -> Iterator[None]:
 
 def _numbers(text: str, option: str) -> Array:
     """Numbers separated by commas; how many there must be is the load's own business."""
+    import numpy as np
+
+    from offwind_pin.base.errors import InputError
+
     try:
         return np.array([float(cell) for cell in text.split(",")])
     except ValueError:
@@ -371,6 +438,9 @@ def _numbers(text: str, option: str) -> Array:
 
 
 def _check_target(option: str, path: Path, example: str) -> None:
+    from offwind_pin.base.errors import InputError
+    from offwind_pin.cases.output_directory import check_writable
+
     if path.is_dir():
         raise InputError(option, str(path), "a file name", f"Name a file, such as {example}.")
     check_writable(path.parent)

@@ -2,18 +2,42 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 from rich.console import Console
 from rich.table import Table
 
-from offwind_pin.analysis.foundation.study.study import SoilOverview
-from offwind_pin.cases.summary import summarise_damping
-from offwind_pin.cases.turbine_overview import Overview
-from offwind_pin.display.report.soil_report import soil_tables
-from offwind_pin.dynamics.system import System
-from offwind_pin.verification.ledger import Outcome
-from offwind_pin.verification.page import outcome_cells
+from offwind_pin.base.mode_labels import mode_name
+
+if TYPE_CHECKING:
+    from offwind_pin.analysis.foundation.study.study import SoilOverview
+    from offwind_pin.cases.turbine_overview import Overview
+    from offwind_pin.dynamics.system import System
+    from offwind_pin.verification.ledger import Outcome
+
+
+def print_modes(title: str, rows: Sequence[Mapping[str, Any]]) -> None:
+    """A line for each mode, as :func:`summarise_modes` gives them."""
+    table = Table("mode", "", "frequency", "damping", "peak at", title=title)
+    for row in rows:
+        table.add_row(
+            row["label"],
+            mode_name(row["label"]),
+            f"{row['frequency_hz']:.4f} Hz",
+            f"{100 * row['damping_ratio']:.2f} %",
+            f"{row['shape_peak_height_ratio']:.2f} of height",
+        )
+    Console().print(table)
+
+
+def print_values(title: str, summary: Mapping[str, Any]) -> None:
+    """The numbers and texts of a summary."""
+    table = Table("quantity", "value", title=title)
+    for key, value in summary.items():
+        if isinstance(value, int | float | str):
+            table.add_row(key, f"{value:.6g}" if isinstance(value, float) else str(value))
+    Console().print(table)
 
 
 def print_surrogate(surrogate: str | None) -> None:
@@ -22,7 +46,9 @@ def print_surrogate(surrogate: str | None) -> None:
 
 
 def print_notes(system: System) -> None:
-    """What a reader of modes must know besides."""
+    """Remarks on the modes of a system: a surrogate soil, and its structural damping."""
+    from offwind_pin.cases.summary import summarise_damping
+
     print_surrogate(system.foundation.surrogate)
     damping = summarise_damping(system)
     if not damping["asked"]:
@@ -37,6 +63,8 @@ def print_notes(system: System) -> None:
 
 def print_outcomes(outcomes: Sequence[Outcome]) -> None:
     """A table for each group, and what failed once more at the end."""
+    from offwind_pin.verification.page import outcome_cells
+
     console = Console()
     for group in dict.fromkeys(outcome.row.group for outcome in outcomes):
         table = Table("row", "found", "off by", "allowed", "", title=f"\n{group}", box=None)
@@ -60,6 +88,8 @@ _OUTCOME_STYLE = {"pass": "", "fail": "bold red", "not run": "yellow"}
 
 
 def print_soil(overview: SoilOverview) -> None:
+    from offwind_pin.display.report.soil_report import soil_tables
+
     console = Console()
     for title, columns, rows in soil_tables(overview):
         table = Table(*columns, title=title, title_justify="left", show_header=any(columns))

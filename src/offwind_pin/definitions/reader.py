@@ -13,20 +13,11 @@ from pydantic_core import ErrorDetails
 
 from offwind_pin.base.definition import with_paths
 from offwind_pin.base.errors import InputError
+from offwind_pin.definitions.shipped import shipped_turbines
 from offwind_pin.definitions.turbine import Turbine
 
 Model = TypeVar("Model", bound=BaseModel)
 Schema = dict[str, Any]
-
-
-def shipped_turbines() -> list[str]:
-    """Names of the turbines that come with the package."""
-    library = resources.files("offwind_pin.definitions") / "library"
-    return sorted(
-        entry.name.removesuffix(".yaml")
-        for entry in library.iterdir()
-        if entry.name.endswith(".yaml")
-    )
 
 
 def load_turbine(name_or_path: str | Path) -> Turbine:

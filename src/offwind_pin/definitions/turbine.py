@@ -7,12 +7,14 @@ A file carries units in its keys (``diameter_m``); in Python the same quantity i
 from __future__ import annotations
 
 import itertools
+from collections.abc import Iterable
 from typing import Annotated, Literal
 
 import numpy as np
 from pydantic import Field, model_validator
 
 from offwind_pin.base.definition import Definition, NonNegative, Number, Positive, Vector3
+from offwind_pin.base.descriptions import html_table
 from offwind_pin.definitions.hydrodynamics import Height, Hydrodynamics
 from offwind_pin.definitions.rotor import GEOMETRY, Rotor
 from offwind_pin.definitions.soil.springs import Soil
@@ -221,6 +223,11 @@ class DampingCalibration(Definition):
     ] = Field(alias="ratios_of_critical", min_length=1)
 
 
+def _range(values: Iterable[float]) -> str:
+    lowest, *_, highest = sorted(values)
+    return f"{lowest:g}" if lowest == highest else f"{lowest:g} to {highest:g}"
+
+
 class Turbine(Definition):
     """A monopile wind turbine and its site."""
 
@@ -236,6 +243,28 @@ class Turbine(Definition):
     hydrodynamics: Hydrodynamics
     soil: Soil
     structural_damping: DampingCalibration | None = None
+
+    def __repr__(self) -> str:
+        return (
+            f"Turbine({self.name}, members {', '.join(member.name for member in self.members)}, "
+            f"toe {self.toe:g} m, mudline {self.site.mudline:g} m, "
+            f"yaw bearing {self.yaw_bearing:g} m)"
+        )
+
+    def _repr_html_(self) -> str:
+        """A table for notebooks."""
+        rows = [
+            (
+                member.name,
+                member.material,
+                f"{member.bottom:g} to {member.top:g}",
+                _range(station.diameter for station in member.stations),
+                _range(1e3 * station.thickness for station in member.stations),
+            )
+            for member in reversed(self.members)
+        ]
+        columns = ("member", "material", "z (m)", "diameter (m)", "thickness (mm)")
+        return html_table(f"{self.name}: {self.description}", columns, rows)
 
     @model_validator(mode="after")
     def _parts_fit(self) -> Turbine:

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
-
-import pinocchio as pin
+from typing import TYPE_CHECKING, Any
 
 from offwind_pin.base.definition import Array
+from offwind_pin.base.descriptions import html_table
 from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.loads.earthquake.ground_motion import GroundMotion
 from offwind_pin.loads.point_load import PointLoad
@@ -17,10 +16,12 @@ from offwind_pin.loads.sea.hydrodynamic_loads import HydrodynamicModel
 from offwind_pin.loads.sea.sea import Sea
 from offwind_pin.loads.soil.foundation import Foundation
 from offwind_pin.structure.chain import Chain
-from offwind_pin.structure.pinocchio_model import Scratch
 
 if TYPE_CHECKING:
+    import pinocchio as pin
+
     from offwind_pin.dynamics.reference.equations import Equations
+    from offwind_pin.structure.pinocchio_model import Scratch
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,25 +32,64 @@ class System:
     ----------
     turbine, foundation, chain : what was built
     sea : None for a dry structure
-    pin_model : the ``pinocchio.Model``, read-only by agreement
     joint_stiffness, joint_damping : (nv,) of the chain's springs and dampers, zero at the root
     damping_ratios : achieved ratios of the calibrated modes by label, for the record
-    scratch : Pinocchio's working memory, one for each thread
     """
 
     turbine: Turbine
     foundation: Foundation
     chain: Chain
     sea: Sea | None
-    pin_model: pin.Model
     joint_stiffness: Array
     joint_damping: Array
     damping_ratios: dict[str, float]
-    scratch: Scratch = field(repr=False)
+
+    def __repr__(self) -> str:
+        sea = "dry" if self.sea is None else type(self.sea).__name__
+        return (
+            f"System({self.turbine.name}, {self.foundation.name}, {sea}, "
+            f"{self.chain.elements} elements, {self.nv} degrees of freedom)"
+        )
+
+    def _repr_html_(self) -> str:
+        """A table for notebooks."""
+        rows = [
+            ("foundation", self.foundation.name),
+            ("sea", "dry" if self.sea is None else repr(self.sea)),
+            ("elements", self.chain.elements),
+            ("degrees of freedom", self.nv),
+            ("base (m)", f"{self.chain.base:.2f}"),
+            ("yaw bearing (m)", f"{self.chain.top:.2f}"),
+            ("mass (t)", f"{self.chain.mass / 1e3:.1f}"),
+            *(
+                (f"damping ratio of {label} (%)", f"{100 * ratio:.3g}")
+                for label, ratio in self.damping_ratios.items()
+            ),
+        ]
+        return html_table(f"System of {self.turbine.name}", (), rows)
 
     @property
     def nv(self) -> int:
-        return int(self.pin_model.nv)
+        """Number of degrees of freedom."""
+        return len(self.chain.joint_name)
+
+    @cached_property
+    def pin_model(self) -> pin.Model:
+        """The ``pinocchio.Model``, read from the URDF on first use; read-only by agreement."""
+        from offwind_pin.structure.pinocchio_model import build_model
+
+        return build_model(self.turbine, self.chain)
+
+    @cached_property
+    def scratch(self) -> Scratch:
+        """Pinocchio's working memory, one for each thread."""
+        from offwind_pin.structure.pinocchio_model import Scratch
+
+        return Scratch(self.pin_model)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Everything but Pinocchio's objects, which a copy makes again when it needs them."""
+        return {k: v for k, v in vars(self).items() if k not in {"pin_model", "scratch"}}
 
     @cached_property
     def waters(self) -> HydrodynamicModel | None:

@@ -25,7 +25,6 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import brentq, least_squares
 
 from offwind_pin.base.errors import InputError
 from offwind_pin.base.whole_files import write_json
@@ -148,6 +147,8 @@ def _lateral(
     sway: float, coupling: float, rocking: float, pile: WisdemPile, plane: str
 ) -> tuple[Array, Array]:
     """Lateral and rocking springs (4,) of the nodes, foot first, for the terms of one plane."""
+    from scipy.optimize import least_squares
+
     wanted = np.array([sway, coupling, rocking])
     if sway <= 0 or rocking <= 0 or coupling >= 0 or coupling**2 >= sway * rocking:
         allowed = "positive definite in each plane, as of something below the mudline"
@@ -190,6 +191,8 @@ def _foot(vertical: float, pile: WisdemPile) -> float:
 
 def _torsional(wanted: float, pile: WisdemPile) -> float:
     """Torsional spring, the same at each node; the one at the mudline is less than the whole."""
+    from scipy.optimize import brentq
+
     if wanted < 0:
         raise InputError("stiffness, rz", wanted, "not negative", "Check it.")
 

@@ -19,6 +19,7 @@ from numba import types
 from numpy.typing import NDArray
 
 from offwind_pin.base.definition import Array
+from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.fingerprint import content_hash
 from offwind_pin.base.kernels import ExchangeableKernel, exchangeable
 
@@ -104,6 +105,8 @@ class PointMotion:
     turn: Array | None = None
     spin: Array | None = None
 
+    __repr__ = one_line
+
     def __getitem__(self, part: slice | NDArray[np.intp]) -> PointMotion:
         given = {item.name: getattr(self, item.name) for item in fields(self)}
         return PointMotion(**{k: value[part] for k, value in given.items() if value is not None})
@@ -125,6 +128,8 @@ class PointForces:
     moment: Array
     dissipation: float = 0.0
 
+    __repr__ = one_line
+
 
 @dataclass(frozen=True, eq=False)
 class PointTangents:
@@ -143,6 +148,8 @@ class PointTangents:
     moment_coupling: Array | None = None
     moment_stiffness: Array | None = None
     moment_damping: Array | None = None
+
+    __repr__ = one_line
 
     @staticmethod
     def zeros(n: int) -> PointTangents:

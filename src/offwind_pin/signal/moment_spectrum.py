@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
-import xarray as xr
 
 from offwind_pin.base.definition import Array
 from offwind_pin.base.mode_labels import is_mode
 from offwind_pin.signal.spectra import band_sum, peaks, power_spectral_density
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 @dataclass(frozen=True)

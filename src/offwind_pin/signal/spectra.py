@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import signal
 
 from offwind_pin.base.errors import InputError
 
@@ -29,6 +28,8 @@ def power_spectral_density(values: Array, dt: float, segment: float = 200.0) -> 
     ------
     InputError : a segment shorter than two samples or longer than the signal
     """
+    from scipy import signal
+
     length = round(segment / dt)
     if not 2 <= length <= len(values):
         raise InputError(
@@ -63,6 +64,8 @@ def peaks(
     The prominence is measured on the logarithmic density; each place is refined by the parabola
     through the maximum and its neighbours.
     """
+    from scipy import signal
+
     level = 10 * np.log10(np.maximum(density, np.finfo(float).tiny))
     found, _ = signal.find_peaks(level, prominence=prominence_db)
     places = []

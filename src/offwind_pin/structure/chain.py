@@ -17,6 +17,7 @@ import numpy as np
 
 from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError
+from offwind_pin.definitions.element import Element
 from offwind_pin.definitions.rotor_nacelle import RigidBody, lump_rna
 from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.structure.frustum import AxialBody
@@ -32,7 +33,6 @@ from offwind_pin.structure.section import (
 from offwind_pin.structure.tuned_mass import SlidingMass, sliding_masses
 
 Stiffness = Literal["flexibility", "midpoint"]
-Element = Literal["euler_bernoulli", "timoshenko"]
 Elements = int | Mapping[str, int] | None
 
 ELEMENT_LENGTH = {"pile": 3.0, "monopile": 4.0, "tower": 4.0}

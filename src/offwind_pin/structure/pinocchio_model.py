@@ -47,8 +47,8 @@ class Scratch:
             raise InputError(
                 "elements",
                 f"{self._model.nv} joints",
-                f"{MOST_JOINTS} joints at most for what Pinocchio computes (modes, linear models)",
-                "Use fewer elements; statics and time histories take more.",
+                f"{MOST_JOINTS} joints at most for what Pinocchio computes",
+                "Use fewer elements, or the compiled engine where there is a choice.",
             )
         if not hasattr(self._local, "data"):
             self._local.data = self._model.createData()

@@ -1,4 +1,4 @@
-"""The ledger as a page: what was claimed, what was found, when and with which versions."""
+"""The ledger as a page: claims, computed values, date and versions."""
 
 from __future__ import annotations
 
@@ -11,10 +11,12 @@ from offwind_pin.verification.ledger import Outcome, Row
 
 _HEAD = """# Verification
 
-Every row is a claim with its reference and tolerance, checked anew by `offwind verify` and by the
-tests; this page is written by `offwind verify --page VERIFICATION.md`. A row by itself:
-`offwind verify --only ID`. Rows whose peer is not installed are shown as not run.
+Every row is a claim with its reference, tolerance and source. `offwind verify` and the tests check
+all rows; `offwind verify --only ID` checks one. Rows that need another program which is not
+installed are marked as not run. This page is written by `offwind verify --page VERIFICATION.md`.
 """
+_COLUMNS = """| row | quantity | computed | reference | difference | tolerance | status | source |
+| --- | --- | --- | --- | --- | --- | --- | --- |"""
 
 
 def verification_page(outcomes: Sequence[Outcome]) -> str:
@@ -30,9 +32,7 @@ def verification_page(outcomes: Sequence[Outcome]) -> str:
     ]
     for group in dict.fromkeys(outcome.row.group for outcome in outcomes):
         rows = [outcome for outcome in outcomes if outcome.row.group == group]
-        lines += ["", f"## {group}", ""]
-        lines += [_line("row", "quantity", "found", "reference", "off by", "allowed", "", "source")]
-        lines += [_line(*["---"] * 8)]
+        lines += ["", f"## {group}", "", _COLUMNS]
         lines += [_line(*outcome_cells(outcome), outcome.row.source) for outcome in rows]
         remarks = dict.fromkeys(row.row.remark for row in rows if row.row.remark is not None)
         for remark in remarks:
@@ -42,7 +42,7 @@ def verification_page(outcomes: Sequence[Outcome]) -> str:
 
 
 def outcome_cells(outcome: Outcome) -> tuple[str, str, str, str, str, str, str]:
-    """Id, quantity, found, reference, distance, tolerance and status, as a reader sees them."""
+    """Id, quantity, computed value, reference, difference, tolerance and status, as text."""
     row = outcome.row
     unit = "" if row.unit == "-" else f" {row.unit}"
     value, reference = (
@@ -55,7 +55,7 @@ def outcome_cells(outcome: Outcome) -> tuple[str, str, str, str, str, str, str]:
 
 
 def _size(number: float, row: Row) -> str:
-    """A distance: in per cent where it is relative and not tiny."""
+    """A difference: in per cent if it is relative and not tiny."""
     if row.kind == "relative" and (number == 0 or number >= 1e-6):
         return f"{100 * number:.2g} %"
     unit = "" if row.unit == "-" or row.kind == "relative" else f" {row.unit}"

@@ -119,6 +119,7 @@ def equilibrium(
         mudline=system.turbine.site.mudline,
         memory=np.zeros(0),
         loads=tuple(loads),
+        engine="pinocchio",
     )
 
 

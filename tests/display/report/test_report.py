@@ -30,8 +30,8 @@ from offwind_pin.display.wording import (
 )
 from offwind_pin.loads.earthquake.description import EarthquakeDescription
 from offwind_pin.loads.wind.synthetic_thrust import operate_rotor
+from offwind_pin.signal.modal_identification.identify import IdentifiedModes
 from offwind_pin.signal.moment_spectrum import Band, MomentSpectrum
-from offwind_pin.signal.operational_modes.identify import IdentifiedModes
 from offwind_pin.signal.response_spectrum import response_spectrum
 from offwind_pin.signal.spectra import band_sum, peaks, power_spectral_density
 

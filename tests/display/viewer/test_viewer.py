@@ -14,7 +14,6 @@ import xarray as xr
 from numpy.testing import assert_allclose
 
 import offwind_pin as ow
-from offwind_pin import cli
 from offwind_pin.base.mode_labels import mode_family
 from offwind_pin.base.whole_files import write_netcdf
 from offwind_pin.cases.run import modes_to_dataset, static_to_dataset
@@ -56,8 +55,14 @@ def nothing_solved(monkeypatch: pytest.MonkeyPatch) -> None:
     def refuse(*_: Any, **__: Any) -> None:
         raise AssertionError("something was solved")
 
-    for name in ("build", "modes", "static", "run_case", "load_turbine"):
-        monkeypatch.setattr(cli, name, refuse)
+    for name in (
+        "analysis.build.build",
+        "analysis.modal.modes",
+        "analysis.static.static",
+        "cases.run.run_case",
+        "definitions.reader.load_turbine",
+    ):
+        monkeypatch.setattr(f"offwind_pin.{name}", refuse)
 
 
 class TestShapes:

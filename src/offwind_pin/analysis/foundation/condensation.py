@@ -11,6 +11,7 @@ import numpy as np
 from offwind_pin.analysis.foundation.pile_only import axis_jacobian, pile_part
 from offwind_pin.analysis.static import StaticResult, load_scale, static
 from offwind_pin.base.definition import Array
+from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError
 from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.dynamics.acting_loads import compiled_loads, split_memory
@@ -55,6 +56,8 @@ class Condensation:
     stiffness: Array
     load: Array
     displacement: Array
+
+    __repr__ = one_line
 
     @property
     def symmetric(self) -> Array:

@@ -13,7 +13,6 @@ from offwind_pin.definitions.turbine import Member, RigidBodyRNA, Station, Turbi
 from offwind_pin.dynamics.reference.chain_kinematics import AxisPoints, ChainMotion
 from offwind_pin.dynamics.system import System
 from offwind_pin.formats.wisdem import WisdemPile
-from offwind_pin.structure.pinocchio_model import Scratch, build_model
 from offwind_pin.structure.section import diameter_and_thickness, lump, pieces
 
 _NOTHING = RigidBodyRNA(
@@ -154,17 +153,14 @@ def pile_part(system: System) -> System:
         rna=lump_rna(turbine.rna),
         sliding_mass=(),
     )
-    model = build_model(turbine, part)
     return replace(
         system,
         turbine=turbine,
         chain=part,
         sea=None,
-        pin_model=model,
         joint_stiffness=system.joint_stiffness[:joints],
         joint_damping=np.zeros(joints),
         damping_ratios={},
-        scratch=Scratch(model),
     )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -10,16 +11,20 @@ from offwind_pin.analysis.assemble import assemble
 from offwind_pin.analysis.foundation.pile_only import axis_jacobian, pile_only
 from offwind_pin.analysis.static import axis_rotation, load_scale
 from offwind_pin.base.definition import Array
+from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError, SolverError
+from offwind_pin.definitions.element import Element
 from offwind_pin.definitions.turbine import Turbine
-from offwind_pin.dynamics.reference.equations import Equations
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.point_load import PointMotion
 from offwind_pin.loads.soil.foundation import distributed_springs
 from offwind_pin.loads.tower_top.load_history import constant_load
 from offwind_pin.solvers.newton import NewtonResult, newton
-from offwind_pin.structure.chain import Element, Elements
+from offwind_pin.structure.chain import Elements
 from offwind_pin.structure.section import outer_diameter
+
+if TYPE_CHECKING:
+    from offwind_pin.dynamics.reference.equations import Equations
 
 _SHARE_OF_DIAMETER = 0.1
 """Mudline displacement over diameter at which a monopile counts as failed, as in the PISA tests
@@ -51,6 +56,8 @@ class Pushover:
     moment: Array
     displacement: Array
     rotation: Array
+
+    __repr__ = one_line
 
 
 def pushover(

@@ -13,10 +13,12 @@ from scipy.stats.qmc import Halton
 from offwind_pin.analysis.updating.definition_path import number_at, with_number
 from offwind_pin.analysis.updating.targets import Responses, Target
 from offwind_pin.base.definition import Array
+from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError
+from offwind_pin.definitions.element import Element
 from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.loads.sea.sea import Sea
-from offwind_pin.structure.chain import Element, Elements
+from offwind_pin.structure.chain import Elements
 
 UNTOLD = 1 / np.sqrt(12)
 """Standard error of a combination, in shares of the parameters' ranges, from which on the data do
@@ -51,6 +53,8 @@ class Parameter:
     upper: float
     start: float | None = None
     log: bool = True
+
+    __repr__ = one_line
 
     def __post_init__(self) -> None:
         where = f"parameter {self.path!r}"
@@ -143,6 +147,8 @@ class Identification:
     probability: float
     evaluations: int
     verdict: str
+
+    __repr__ = one_line
 
     @property
     def identifiable(self) -> bool:

@@ -13,11 +13,13 @@ from offwind_pin.analysis.build import build
 from offwind_pin.analysis.modal import ModalResult, modes
 from offwind_pin.analysis.static import StaticResult, static
 from offwind_pin.base.definition import Array
+from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError
+from offwind_pin.definitions.element import Element
 from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.sea.sea import Sea
-from offwind_pin.structure.chain import Element, Elements
+from offwind_pin.structure.chain import Elements
 
 _MODES = 12
 """Modes computed, among which the labels of targets are sought."""
@@ -92,6 +94,8 @@ class FrequencyTarget:
     value: float
     uncertainty: float
 
+    __repr__ = one_line
+
     def __post_init__(self) -> None:
         _check(self.name, self.uncertainty, self.value)
 
@@ -125,6 +129,8 @@ class DeflectionTarget:
     height: float | None = None
     tower_top_load: tuple[float, ...] | None = None
     over_clamped: bool = False
+
+    __repr__ = one_line
 
     def __post_init__(self) -> None:
         _check(self.name, self.uncertainty, self.value)
@@ -166,6 +172,8 @@ class ShapeTarget:
     height: tuple[float, ...]
     value: tuple[float, ...]
     uncertainty: float
+
+    __repr__ = one_line
 
     def __post_init__(self) -> None:
         _check(self.name, self.uncertainty, *self.height, *self.value)

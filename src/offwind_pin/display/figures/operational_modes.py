@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from offwind_pin.display.figures.style import BLUE, FULL_WIDTH, MUTED, VERMILLION, styled
-from offwind_pin.signal.operational_modes.identify import IdentifiedModes, OperationalModes
+from offwind_pin.signal.modal_identification.identify import IdentifiedModes, OperationalModes
 
 _BAND = (0.05, 3.0)
 """Hz that are shown."""

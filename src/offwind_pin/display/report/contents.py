@@ -14,8 +14,8 @@ from offwind_pin.dynamics.system import System
 from offwind_pin.loads.earthquake.description import EarthquakeDescription
 from offwind_pin.loads.wind.synthetic_thrust import RotorOperation, SyntheticWind
 from offwind_pin.results.reading import analysed as without_ramp
+from offwind_pin.signal.modal_identification.identify import IdentifiedModes
 from offwind_pin.signal.moment_spectrum import MomentSpectrum
-from offwind_pin.signal.operational_modes.identify import IdentifiedModes
 
 
 @dataclass(frozen=True)

@@ -62,6 +62,7 @@ _PROVENANCE_NAMES = {
     "ground_motion_baseline": "baseline of the ground motion",
     "ground_motion_cautions": "cautions about the ground motion",
     "integrator": "time integration",
+    "engine": "engine of the equations of motion",
     "dt_s": "time step, s",
     "ramp_s": "ramp, s",
     "spectral_radius": "spectral radius at infinite frequency",

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numba import types
@@ -36,12 +36,15 @@ from offwind_pin.dynamics.compiled.recorder_arrays import (
 )
 from offwind_pin.dynamics.compiled.recording import take_note
 from offwind_pin.dynamics.compiled.residual import balance, commit
-from offwind_pin.dynamics.reference.equations import Equations
+from offwind_pin.dynamics.resting_axis import RestingAxis
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.earthquake.ground_motion import GroundMotion
 from offwind_pin.loads.point_load import PointLoad
 from offwind_pin.loads.root_restraint import FREE
 from offwind_pin.solvers import generalized_alpha
+
+if TYPE_CHECKING:
+    from offwind_pin.dynamics.reference.equations import Equations
 
 
 class Run(NamedTuple):
@@ -128,10 +131,35 @@ class CompiledChain:
     def memory(self, past: Array) -> None:
         self.arrays.memory[:] = past
 
-    def commit(self, row: Array, q: Array) -> None:
-        """End a step at the state last evaluated."""
+    def at_rest(self, row: Array, q: Array, height: Array) -> RestingAxis:
+        """Axis and section loads of a state of rest, which soil and foundation then remember."""
+        rest = np.zeros_like(q)
+        self.residual(row, q, rest, rest)
         with self.running():
             commit(self.arrays, row, q)
+        record = self.record(self.sections(height), row, q, rest, rest)
+        direction = self.arrays.rotation[self.system.chain.body_at(height), :, 2]
+        return RestingAxis(record.displacement[0], direction, record.section_load[0])
+
+    def start(self, q: Array) -> Array:
+        """(6, nv) vectors of generalised-alpha at time 0, at rest at joint displacements."""
+        return generalized_alpha.start(self, self.rows(np.zeros(1))[0], q, np.zeros_like(q))
+
+    def advance(
+        self,
+        recorder: RecorderArrays,
+        method: generalized_alpha.Method,
+        vectors: Array,
+        instants: Array,
+        last: Array,
+    ) -> tuple[int, int, float]:
+        """Generalised-alpha's steps to the instants (t,) in s, recorded; see :func:`advance`."""
+        rows = self.rows(instants)
+        with self.running():
+            result: tuple[int, int, float] = generalized_alpha.compiled_advance(
+                Run(self.arrays, recorder), method, vectors, rows, last
+            )
+        return result
 
     def unstable_directions(self) -> int:
         """Number of motions away from the factorised static state that need no work."""
@@ -165,15 +193,24 @@ class CompiledChain:
         return recorder
 
     def note(
-        self, recorder: RecorderArrays, row: Array, q: Array, v: Array, a: Array, scale: float = 1.0
+        self,
+        recorder: RecorderArrays,
+        row: Array,
+        q: Array,
+        v: Array,
+        a: Array,
+        scale: float = 1.0,
+        iterations: int = 0,
     ) -> None:
         """Let a recorder take note of a state; the residual is over a scale."""
         with self.running():
             size = float(np.max(np.abs(balance(self.arrays, row, q, v, a)))) / scale
-            take_note(self.arrays, recorder, row, q, v, 0, size)
+            take_note(self.arrays, recorder, row, q, v, iterations, size)
 
     def equations(self) -> Equations:
         """The same equations of motion by Pinocchio."""
+        from offwind_pin.dynamics.reference.equations import Equations
+
         return Equations(self.system, self._given, self.ramp_time, self.memory, self.ground_motion)
 
     def worst_joint(self, residual: Array) -> tuple[str, float]:

@@ -61,6 +61,8 @@ class Equations:
     ----------
     loads : soil, water and what was given; with water the added mass comes first
     points : where they act
+    model, data : Pinocchio's, the data those of this thread
+    last_joint : (N + 1) joint of the model that moves each body
     """
 
     def __init__(
@@ -75,28 +77,35 @@ class Equations:
         self.chain = system.chain
         self.ramp_time = ramp_time
         self.loads = compiled_loads(all_loads(system, loads))
-        self._model, self._data = system.pin_model, system.scratch.data
+        self.model, self.data = system.pin_model, system.scratch.data
         self._ground_motion = ground_motion
         self._grounding = grounding(system, self.loads, ground_motion)
         if ground_motion is not None:
-            self._model = pin.Model(system.pin_model)  # its gravity will change
+            self.model = pin.Model(system.pin_model)  # its gravity will change
         heights = [np.zeros(0), *(load.height for load in self.loads)]
         self.points = AxisPoints.on(system.chain, np.concatenate(heights))
         edges = np.cumsum([len(height) for height in heights])
         self._parts = [slice(int(a), int(b)) for a, b in itertools.pairwise(edges)]
         root = system.foundation.root
         self._root = FREE if root is None else root.compiled()
-        self._memory = split_memory(self.loads, self._root, memory)
+        self._memory = [part.copy() for part in split_memory(self.loads, self._root, memory)]
         joints = len(system.chain.node_joints)
         last = system.chain.roots + joints * np.arange(system.chain.elements + 1)
-        self._last_joint = [int(joint) for joint in last]
+        self.last_joint = [int(joint) for joint in last]
+
+    @property
+    def memory(self) -> Array:
+        """(m,) what soil and foundation keep of their past; a copy."""
+        return np.concatenate(self._memory)
+
+    @memory.setter
+    def memory(self, past: Array) -> None:
+        self._memory = [part.copy() for part in split_memory(self.loads, self._root, past)]
 
     def residual(self, time: float, q: Array, v: Array, a: Array) -> Array:
         """(nv,) generalised forces out of balance, in N and N m."""
-        state = self.evaluate(time, q, v, a)
-        self._lean(time)
-        balance = pin.rnea(self._model, self._data, q, v, a)
-        balance = balance + self.system.joint_stiffness * q + self.system.joint_damping * v
+        state = self.inverse_dynamics(time, q, v, a)
+        balance = self.data.tau + self.system.joint_stiffness * q + self.system.joint_damping * v
         balance -= state.motion.generalised_force(
             self.points, state.points.position, state.forces.force, state.forces.moment
         )
@@ -106,7 +115,7 @@ class Equations:
 
     def mass(self, q: Array, time: float | None = None) -> Array:
         """(nv, nv) mass matrix dr/da with the added mass; in still water unless a time is given."""
-        upper = np.triu(pin.crba(self._model, self._data, q))
+        upper = np.triu(pin.crba(self.model, self.data, q))
         total = upper + np.triu(upper, 1).T
         motion = self.chain_motion(q, np.zeros_like(q))
         points = motion.points(self.points)
@@ -129,9 +138,9 @@ class Equations:
         rate = np.zeros_like(q) if a is None else a
         by_q, by_v, _ = self._load_tangents(time, q, v, rate)
         self._lean(time)
-        pin.computeRNEADerivatives(self._model, self._data, q, v, rate)
-        stiffness = by_q + self._data.dtau_dq + np.diag(self.system.joint_stiffness)
-        damping = by_v + self._data.dtau_dv + np.diag(self.system.joint_damping)
+        pin.computeRNEADerivatives(self.model, self.data, q, v, rate)
+        stiffness = by_q + self.data.dtau_dq + np.diag(self.system.joint_stiffness)
+        damping = by_v + self.data.dtau_dv + np.diag(self.system.joint_damping)
         if self.chain.roots:
             by_displacement, by_rate = self._root.tangents(q[:6], v[:6], self._memory[-1])
             stiffness[:6, :6] += by_displacement
@@ -158,6 +167,23 @@ class Equations:
             force[part], moment[part] = result.force, result.moment
         return Evaluation(motion, points, PointForces(force, moment))
 
+    def inverse_dynamics(self, time: float, q: Array, v: Array, a: Array) -> Evaluation:
+        """The same, with Pinocchio's data left as its rnea of that state fills them."""
+        state = self.evaluate(time, q, v, a)
+        self._lean(time)
+        pin.rnea(self.model, self.data, q, v, a)
+        return state
+
+    def commit(self, time: float, q: Array, v: Array, a: Array) -> None:
+        """End a step: what loads and root keep of their past becomes that of a state."""
+        seen = self._seen(time, self.chain_motion(q, v, a).points(self.points))
+        ramp_factor = float(smooth_ramp(np.array(time), self.ramp_time))
+        for load, part, past in zip(self.loads, self._parts, self._memory[:-1], strict=True):
+            if load.memory_size:
+                load.commit(seen[part], past, time, ramp_factor)
+        if self.chain.roots:
+            self._root.commit(q[:6], self._memory[-1])
+
     def _ground(self, time: float) -> Array:
         """(P + 1, 3, 3) ground's displacement, velocity, acceleration at points and base."""
         if self._ground_motion is None:
@@ -168,7 +194,7 @@ class Equations:
         """Let gravity pull as it does seen from a base that accelerates."""
         if self._ground_motion is not None:
             own = self.system.pin_model.gravity.linear
-            self._model.gravity.linear = own - self._ground(time)[BASE, 2]
+            self.model.gravity.linear = own - self._ground(time)[BASE, 2]
 
     def _seen(self, time: float, points: PointMotion) -> PointMotion:
         """Motion as loads see it: absolute, but for the soil relative to the ground there.
@@ -195,10 +221,10 @@ class Equations:
 
     def chain_motion(self, q: Array, v: Array, a: Array | None = None) -> ChainMotion:
         """Motion of the chain's axis."""
-        pin.computeJointJacobiansTimeVariation(self._model, self._data, q, v)
+        pin.computeJointJacobiansTimeVariation(self.model, self.data, q, v)
         rate = np.zeros_like(q) if a is None else a
-        rotation = np.array([self._data.oMi[joint].rotation for joint in self._last_joint])
-        jacobian, its_rate = np.array(self._data.J), np.array(self._data.dJ)
+        rotation = np.array([self.data.oMi[joint].rotation for joint in self.last_joint])
+        jacobian, its_rate = np.array(self.data.J), np.array(self.data.dJ)
         return ChainMotion(self.chain, jacobian, its_rate, rotation, q, v, rate)
 
     def _load_tangents(

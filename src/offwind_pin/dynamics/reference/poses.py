@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-import pinocchio as pin
 
 from offwind_pin.base.definition import Array
 from offwind_pin.dynamics.system import System
@@ -24,6 +23,8 @@ def body_poses(system: System, q: Array) -> Array:
     -------
     (N + 1, 4, 4) homogeneous transforms from body to inertial axes, lengths in m
     """
+    import pinocchio as pin
+
     chain, data = system.chain, system.scratch.data
     pin.forwardKinematics(system.pin_model, data, q)
     joints = chain.roots + len(chain.node_joints) * np.arange(chain.elements + 1)
@@ -35,6 +36,8 @@ def body_poses(system: System, q: Array) -> Array:
 
 def sliding_mass_poses(system: System, q: Array) -> Array:
     """(D, 4, 4) poses of the masses of tuned mass dampers, turned as their carriers are."""
+    import pinocchio as pin
+
     model, data = system.pin_model, system.scratch.data
     pin.forwardKinematics(model, data, q)
     joints = [model.getJointId(mass.joint_names[-1]) for mass in system.chain.sliding_mass]

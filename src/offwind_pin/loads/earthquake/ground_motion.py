@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 
 from offwind_pin.base.definition import Array
+from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError
 
 Baseline = Literal["none", "parabolic"]
@@ -52,6 +53,8 @@ class GroundMotion:
     height: Array | None = None
     baseline: Baseline = "none"
     origin: str = "given"
+
+    __repr__ = one_line
 
     def __post_init__(self) -> None:
         for name in ("time", "acceleration", "height"):

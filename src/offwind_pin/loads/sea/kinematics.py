@@ -6,7 +6,6 @@ from collections.abc import Callable
 from typing import Literal, NamedTuple, get_args
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 from offwind_pin.base.definition import Array, ComplexArray
 from offwind_pin.base.errors import InputError
@@ -220,6 +219,8 @@ def _levels(depth: float, top: float) -> Array:
 
 def _cubics(level: Array, profiles: Array) -> Array:
     """(r, 4 (l - 1)) coefficients of the cubics between levels of profiles (r, l)."""
+    from scipy.interpolate import CubicSpline
+
     coefficients = CubicSpline(level, profiles, axis=1).c  # (4, l - 1, r)
     return np.ascontiguousarray(coefficients.transpose(2, 1, 0)).reshape(len(profiles), -1)
 
@@ -234,6 +235,8 @@ def _slopes(
 
     level (l,) rising to 0, mean height of the surface in m; six sums, by quantity and axis
     """
+    from scipy.interpolate import CubicSpline
+
     top = level[-_SLOPE_LEVELS:]
     factor = 1.0 if inertia_factor is None else inertia_factor(np.array([mean]))[0]
     by_height = [

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from offwind_pin.base.definition import Array
+from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError
 from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.loads.point_load import PointLoad
@@ -47,6 +48,8 @@ class Foundation:
     structure: Turbine | None = None
     facts: dict[str, object] = field(default_factory=dict)
     cautions: tuple[str, ...] = ()
+
+    __repr__ = one_line
 
     def describe(self) -> dict[str, object]:
         """Plain data for the sidecar: the root restraint and where the soil acts."""

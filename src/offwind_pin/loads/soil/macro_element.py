@@ -13,7 +13,6 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import nnls
 
 from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError
@@ -300,6 +299,8 @@ def _parallel(
 
     A reluctance (j,) weighs what a spring takes of the sum against relative errors of the force.
     """
+    from scipy.optimize import nnls
+
     weight, count = 1e4, stretch.shape[1]
     rows = [stretch / force[:, None] * stiffness, np.full((1, count), weight)]
     aims = [np.ones(len(force)), np.full(1, weight)]

@@ -10,7 +10,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 from offwind_pin.base.definition import Array, ComplexArray
 from offwind_pin.base.errors import InputError
@@ -129,6 +128,8 @@ class RotorTurbulence:
 
     def harmonic_spectrum(self, frequency: Array, order: int) -> Array:
         """(f,) one-sided spectrum S_n = S F_n of a harmonic in the frame that turns, (m/s)^2/Hz."""
+        from scipy.interpolate import CubicSpline
+
         lowest = 1e-3 * self.turbulence.wind_speed / self.turbulence.length
         highest = 1e3 * self.turbulence.wind_speed / self.radius
         lines = np.geomspace(lowest, highest, _LINES)

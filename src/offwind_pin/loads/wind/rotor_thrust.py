@@ -14,6 +14,7 @@ from typing import Literal
 import numpy as np
 
 from offwind_pin.base.definition import Array
+from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError
 from offwind_pin.base.kernels import kernel
 from offwind_pin.definitions.rotor_disc import RotorDisc
@@ -209,6 +210,8 @@ class RotorThrust(KernelLoad):
     control_time: float = CONTROL_TIME
     inflow_lag: bool = False
     name: str = "rotor_thrust"
+
+    __repr__ = one_line
 
     force_kernel = _forces
     tangent_kernel = _tangents

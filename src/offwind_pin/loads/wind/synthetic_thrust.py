@@ -12,7 +12,6 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from scipy.optimize import brentq
 
 from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError
@@ -79,6 +78,8 @@ def operate_rotor(
 
     wind_speed in m/s, blade_passing_frequency in Hz.
     """
+    from scipy.optimize import brentq
+
     rotor_speed = 2 * np.pi * blade_passing_frequency / rna.blades
     radius = rotor_radius(rna)
     ratio = rotor_speed * radius / wind_speed

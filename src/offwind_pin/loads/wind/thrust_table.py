@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 
 from offwind_pin.base.definition import Array
 from offwind_pin.base.kernels import kernel
@@ -55,6 +54,8 @@ class ThrustTable:
     """
 
     def __init__(self, disc: RotorDisc) -> None:
+        from scipy.interpolate import PchipInterpolator
+
         table = disc.rotor.thrust_coefficient
         cubics = PchipInterpolator(table.wind_speed, table.value)
         self.numbers: Array = np.concatenate(

@@ -41,6 +41,7 @@ from offwind_pin.analysis.foundation.study.tabulate import (
 )
 from offwind_pin.analysis.static import static
 from offwind_pin.base.definition import Array
+from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError, SolverError
 from offwind_pin.definitions.soil.layers import LayeredGround
 from offwind_pin.definitions.soil.springs import DistributedSprings
@@ -117,6 +118,8 @@ class SoilOverview:
     damping: dict[str, xr.Dataset]
     damping_model: str | None
     remarks: tuple[str, ...]
+
+    __repr__ = one_line
 
     @property
     def others(self) -> tuple[OtherSprings, ...]:

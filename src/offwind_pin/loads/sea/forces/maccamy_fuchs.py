@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.special import h2vp
 
 from offwind_pin.base.definition import Array, ComplexArray
 
@@ -25,6 +24,8 @@ def maccamy_fuchs(diameter: Array, wave_number: Array) -> ComplexArray:
 
     diameter (n,) in m; wave_number (m,) in rad/m, of which 0 stands for water at rest or a current
     """
+    from scipy.special import h2vp
+
     size = np.multiply.outer(diameter / 2, wave_number)
     long = size < SMALLEST
     safe = np.where(long, 1.0, size)

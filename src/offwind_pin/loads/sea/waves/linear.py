@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from offwind_pin.base.definition import Array, ComplexArray
+from offwind_pin.base.descriptions import one_line
 from offwind_pin.loads.sea.waves.dispersion import wave_number, wave_number_in_current
 from offwind_pin.loads.sea.waves.wave_field import WaveField
 
@@ -35,6 +36,8 @@ class LinearWaves(WaveField):
     wave_number: Array
     carried: Array | float = 0.0
     blocked: float = 0.0
+
+    __repr__ = one_line
 
     @staticmethod
     def free(

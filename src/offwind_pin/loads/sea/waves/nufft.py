@@ -11,7 +11,6 @@ from __future__ import annotations
 from functools import cached_property
 
 import numpy as np
-from scipy.fft import irfft, next_fast_len
 
 from offwind_pin.base.definition import Array, ComplexArray
 from offwind_pin.base.kernels import kernel
@@ -36,6 +35,8 @@ class HarmonicSeries:
     """
 
     def __init__(self, period: float, harmonic: Array, amplitude: ComplexArray) -> None:
+        from scipy.fft import irfft, next_fast_len
+
         self.period = period
         highest = int(np.max(harmonic, initial=0))
         self._points = next_fast_len(max(2 * (2 * highest + 1), 4 * TAPS), real=True)

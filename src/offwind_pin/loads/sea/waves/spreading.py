@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from typing import Literal, get_args
 
 import numpy as np
-from scipy.special import betaincinv, gammaln
 
 from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError
@@ -43,6 +42,8 @@ class Spreading:
 
     def density(self, angle: Array) -> Array:
         """(n,) in 1/rad at angles (n,) in rad from the mean direction, from -pi to pi."""
+        from scipy.special import gammaln
+
         if self.kind == "cos_2s":
             s = self.exponent
             level = np.exp(gammaln(s + 1) - gammaln(s + 0.5)) / (2 * np.sqrt(np.pi))
@@ -56,6 +57,8 @@ class Spreading:
 
         sin^2 of the angle, or of its half, follows a beta distribution.
         """
+        from scipy.special import betaincinv
+
         side = 2 * share - 1
         if self.kind == "cos_2s":
             square = betaincinv(0.5, self.exponent + 0.5, np.abs(side))
@@ -69,6 +72,8 @@ class Spreading:
 
         sqrt(2 / (1 + s)) for cos^2s.
         """
+        from scipy.special import gammaln
+
         if self.kind == "cos_2s":
             return float(np.sqrt(2 / (1 + self.exponent)))
         n = self.exponent

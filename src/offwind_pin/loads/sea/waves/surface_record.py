@@ -8,7 +8,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-from scipy.signal.windows import tukey
 
 from offwind_pin.base.definition import Array, ComplexArray
 from offwind_pin.base.errors import InputError
@@ -90,6 +89,8 @@ class SurfaceRecord:
         over a hundredth of the record), so that the record may repeat; then all frequencies beyond
         the cuts are left out.
         """
+        from scipy.signal.windows import tukey
+
         n, duration = len(self.elevation), self.duration
         at = np.arange(n) * self.dt
         slope, start = np.polyfit(at, self.elevation, 1)

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from offwind_pin.base.errors import InputError
-from offwind_pin.signal.operational_modes.modal_assurance import modal_assurance, real_shape
+from offwind_pin.signal.modal_identification.modal_assurance import modal_assurance, real_shape
 
 HEIGHT = np.linspace(0.1, 1.0, 13)
 SHAPES = np.array([HEIGHT**2, np.sin(1.4 * np.pi * HEIGHT), np.sin(2.5 * np.pi * HEIGHT)])

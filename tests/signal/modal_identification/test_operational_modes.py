@@ -12,8 +12,8 @@ from numpy.testing import assert_allclose
 import offwind_pin as ow
 from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError
-from offwind_pin.signal.operational_modes.identify import OperationalModes, operational_modes
-from offwind_pin.signal.operational_modes.modal_assurance import modal_assurance
+from offwind_pin.signal.modal_identification.identify import OperationalModes, operational_modes
+from offwind_pin.signal.modal_identification.modal_assurance import modal_assurance
 
 DT = 0.05
 SYSTEM = three_modes()

@@ -11,7 +11,7 @@ from scipy import signal
 
 from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError
-from offwind_pin.signal.operational_modes.cross_spectra import cross_spectral_matrix
+from offwind_pin.signal.modal_identification.cross_spectra import cross_spectral_matrix
 from offwind_pin.signal.spectra import power_spectral_density
 
 RATE = 20.0

@@ -13,7 +13,7 @@ from numpy.testing import assert_allclose
 import offwind_pin as ow
 from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError
-from offwind_pin.signal.operational_modes.accelerations import read_accelerations
+from offwind_pin.signal.modal_identification.accelerations import read_accelerations
 
 STEP = 0.05
 VALUES = np.random.default_rng(1).normal(size=(80, 2))

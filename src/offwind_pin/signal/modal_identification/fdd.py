@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from scipy import signal
 
 from offwind_pin.base.errors import InputError
-from offwind_pin.signal.operational_modes.cross_spectra import CrossSpectra
+from offwind_pin.signal.modal_identification.cross_spectra import CrossSpectra
 
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]

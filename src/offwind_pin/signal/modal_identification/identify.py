@@ -8,12 +8,21 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError
-from offwind_pin.signal.operational_modes.cross_spectra import CrossSpectra, cross_spectral_matrix
-from offwind_pin.signal.operational_modes.enhanced_fdd import mode_of_bell, single_mode_bell
-from offwind_pin.signal.operational_modes.fdd import Peak, peaks_near, pick_peaks, singular_values
-from offwind_pin.signal.operational_modes.free_decay import Decrement, checked_range
-from offwind_pin.signal.operational_modes.modal_assurance import real_shape
+from offwind_pin.signal.modal_identification.cross_spectra import (
+    CrossSpectra,
+    cross_spectral_matrix,
+)
+from offwind_pin.signal.modal_identification.enhanced_fdd import mode_of_bell, single_mode_bell
+from offwind_pin.signal.modal_identification.fdd import (
+    Peak,
+    peaks_near,
+    pick_peaks,
+    singular_values,
+)
+from offwind_pin.signal.modal_identification.free_decay import Decrement, checked_range
+from offwind_pin.signal.modal_identification.modal_assurance import real_shape
 
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -67,6 +76,8 @@ class OperationalModes:
     segments: int
     averages: float
     cautions: tuple[str, ...]
+
+    __repr__ = one_line
 
 
 def operational_modes(

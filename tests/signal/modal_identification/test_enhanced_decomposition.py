@@ -9,14 +9,14 @@ from scipy import signal
 
 from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError
-from offwind_pin.signal.operational_modes.cross_spectra import CrossSpectra
-from offwind_pin.signal.operational_modes.enhanced_fdd import (
+from offwind_pin.signal.modal_identification.cross_spectra import CrossSpectra
+from offwind_pin.signal.modal_identification.enhanced_fdd import (
     Bell,
     correlation,
     mode_of_bell,
     single_mode_bell,
 )
-from offwind_pin.signal.operational_modes.fdd import singular_values
+from offwind_pin.signal.modal_identification.fdd import singular_values
 
 RATE = 20.0
 FREQUENCY, RATIO = 0.6, 0.01

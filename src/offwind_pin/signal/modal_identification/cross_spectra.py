@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import signal
 
+from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError
 
 Array = NDArray[np.float64]
@@ -38,6 +39,8 @@ class CrossSpectra:
     window: Array
     sample_rate: float
     duration: float
+
+    __repr__ = one_line
 
     @property
     def segment(self) -> float:

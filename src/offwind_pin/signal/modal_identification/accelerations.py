@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError
 from offwind_pin.base.number_tables import read_text, to_numbers
 
@@ -40,6 +41,8 @@ class Accelerations:
     time: Array
     names: tuple[str, ...]
     values: Array
+
+    __repr__ = one_line
 
     @property
     def sample_rate(self) -> float:

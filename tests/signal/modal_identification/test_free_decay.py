@@ -11,7 +11,7 @@ from scipy.integrate import solve_ivp
 
 from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError
-from offwind_pin.signal.operational_modes.free_decay import free_decay
+from offwind_pin.signal.modal_identification.free_decay import free_decay
 
 
 def decay(frequency: float, ratio: float, time: Array, phase: float = 0.4) -> Array:

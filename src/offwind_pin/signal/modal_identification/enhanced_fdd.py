@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from offwind_pin.base.errors import InputError
-from offwind_pin.signal.operational_modes.cross_spectra import CrossSpectra
-from offwind_pin.signal.operational_modes.free_decay import (
+from offwind_pin.signal.modal_identification.cross_spectra import CrossSpectra
+from offwind_pin.signal.modal_identification.free_decay import (
     Decrement,
     decrement,
     extremes,

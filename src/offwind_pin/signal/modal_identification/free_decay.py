@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import signal
 
+from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError
 
 Array = NDArray[np.float64]
@@ -63,6 +64,8 @@ class FreeDecay:
     amplitude: Array
     local_amplitude: Array
     local_damping: Array
+
+    __repr__ = one_line
 
 
 def free_decay(

@@ -1,0 +1,104 @@
+"""The two engines that evaluate the equations of motion, by name.
+
+``"compiled"`` is the chain's own recursion in O(N); ``"pinocchio"`` takes the rigid bodies and
+their derivatives from Pinocchio and solves with dense matrices. The loads, Newton's method and
+generalised-alpha are the same.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, get_args
+
+from offwind_pin.base.errors import InputError
+from offwind_pin.definitions.engine import Engine
+
+if TYPE_CHECKING:
+    from offwind_pin.analysis.integrators import Integrator
+    from offwind_pin.analysis.static import StaticResult
+    from offwind_pin.dynamics.compiled.chain import CompiledChain
+    from offwind_pin.dynamics.reference.dense_chain import DenseChain
+    from offwind_pin.dynamics.reference.dense_pencil import DensePencil
+    from offwind_pin.dynamics.system import System
+    from offwind_pin.loads.earthquake.ground_motion import GroundMotion
+    from offwind_pin.loads.point_load import PointLoad
+
+
+def check_engine(engine: str) -> None:
+    """Refuse a name that no engine has.
+
+    Raises
+    ------
+    InputError : with the names allowed
+    """
+    if engine not in get_args(Engine):
+        raise InputError("engine", engine, ", ".join(get_args(Engine)), "Choose one.")
+
+
+def engine_of(integrator: Integrator, engine: Engine | None) -> Engine:
+    """The engine asked for, by default the integrator's first.
+
+    Raises
+    ------
+    InputError : an unknown engine, or one that the integrator does not work with
+    """
+    if engine is None:
+        return integrator.engines[0]
+    check_engine(engine)
+    if engine not in integrator.engines:
+        raise InputError(
+            "engine",
+            engine,
+            f"{', '.join(integrator.engines)} with {type(integrator).__name__}",
+            "Choose one, or use another integrator.",
+        )
+    return engine
+
+
+def resting_chain(
+    system: System, loads: Sequence[PointLoad], engine: Engine
+) -> CompiledChain | DenseChain:
+    """A system under the means of loads, for statics.
+
+    Raises
+    ------
+    InputError : an unknown engine
+    """
+    check_engine(engine)
+    if engine == "pinocchio":
+        from offwind_pin.dynamics.reference.dense_chain import DenseChain
+
+        return DenseChain(system.equations(loads, None))
+    from offwind_pin.dynamics.compiled.chain import CompiledChain
+
+    return CompiledChain(system, loads)
+
+
+def pencil(system: System, about: StaticResult, engine: Engine) -> DensePencil:
+    """Linear equations of small motions about a static state, by Pinocchio with either engine.
+
+    Raises
+    ------
+    InputError : an unknown engine
+    """
+    from offwind_pin.dynamics.reference.dense_pencil import DensePencil
+
+    check_engine(engine)
+    return DensePencil(system.equations(about.loads, None, about.memory), about.q)
+
+
+def moving_chain(
+    system: System,
+    loads: Sequence[PointLoad],
+    ramp_time: float,
+    ground_motion: GroundMotion | None,
+    engine: Engine,
+) -> CompiledChain:
+    """A system under loads, for motion in time; compiled code records it with either engine."""
+    if engine == "pinocchio":
+        from offwind_pin.dynamics.reference.moving_chain import MovingChain
+
+        return MovingChain(system, loads, ramp_time, ground_motion)
+    from offwind_pin.dynamics.compiled.chain import CompiledChain
+
+    return CompiledChain(system, loads, ramp_time, ground_motion)

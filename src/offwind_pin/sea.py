@@ -1,0 +1,5 @@
+"""Seas: water at rest or in waves, their spectra, and currents."""
+
+from offwind_pin.base.public_names import public_names
+
+__getattr__, __dir__, __all__ = public_names(__name__, __file__)

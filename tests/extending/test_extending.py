@@ -1,0 +1,62 @@
+"""The page on extending runs as printed, and what it prints is what closed forms give."""
+
+from __future__ import annotations
+
+import runpy
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from helpers.doc_pages import ROOT, blocks
+
+PAGE = ROOT / "docs" / "extending.md"
+EXAMPLES = [block.text for block in blocks(PAGE) if block.language == "python"]
+
+
+def run(name: str, tmp_path: Path) -> dict[str, Any]:
+    """The variables of the one example that defines a class of that name."""
+    (code,) = (text for text in EXAMPLES if f"class {name}(" in text)
+    file = tmp_path / "example.py"
+    file.write_text(code, encoding="utf-8")
+    return runpy.run_path(str(file))
+
+
+def printed(capsys: pytest.CaptureFixture[str]) -> list[float]:
+    return [float(line) for line in capsys.readouterr().out.split()]
+
+
+def test_load(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Springs in parallel: the guy wire adds its stiffness to the tower's."""
+    found = run("GuyWire", tmp_path)
+    assert printed(capsys) == pytest.approx([5e5], rel=2e-3)
+    assert found["tower"] > 5e5
+
+
+def test_foundation(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Sway and rocking are the loads at the mudline over the springs' stiffness."""
+    run("Springs", tmp_path)
+    assert printed(capsys) == pytest.approx([1e5, 1.0], rel=1e-6)
+
+
+def test_wave_model(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """The surface is a cosine, and in deep water the loads are those of linear theory."""
+    found = run("DeepWaterWaves", tmp_path)
+    surface, moment = printed(capsys)
+    assert surface < 1e-6
+    size = float(abs(found["linear"].mudline_moment).max()) / 1e6
+    assert moment < 1e-6 * size
+    field = found["DeepWaterWaves"](0.1, 2.0).waves(50.0, 9.81)
+    speed = abs(field.velocity(np.array([0.0, -5.0]))[0, :, 0])
+    assert speed == pytest.approx(0.1 * np.pi * np.exp([0.0, -5 * np.pi**2 / 9.81]))
+
+
+def test_step_policy(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Five steps to each interval of 0.2 s."""
+    found = run("EqualSteps", tmp_path)
+    assert printed(capsys) == pytest.approx([0.04], rel=1e-12)
+    assert found["history"].attrs["step_policy"] == "equal steps"
+
+
+def test_every_example_is_run() -> None:
+    assert len(EXAMPLES) == 4
