@@ -231,7 +231,9 @@ class SpringsOfLaw(KernelLoad):
     @cached_property
     def constants(self) -> Array:
         n, length = len(self.height), self.tributary_length
-        initial = self.curves.secant(np.zeros(n)) * length * self.dashpot.initial_time
+        initial = np.zeros(n)
+        if self.dashpot.initial_time:  # without it nothing need be compiled for the secant
+            initial = self.curves.secant(np.zeros(n)) * length * self.dashpot.initial_time
         return np.column_stack(
             [
                 np.tile(self.component.columns, (n, 1)),
