@@ -21,7 +21,7 @@ from selenium import webdriver
 from selenium.webdriver.common.by import By
 
 import offwind_pin as ow
-from offwind_pin.cases.run import modes_to_dataset
+from offwind_pin.analysis.drawing_data import modes_dataset
 from offwind_pin.display.viewer.history_frames import Frames, frames
 from offwind_pin.display.viewer.history_page import ARROW_SHARE, colour_ramp, time_history_page
 from offwind_pin.display.viewer.mode_frames import Shapes, shapes
@@ -35,7 +35,7 @@ READY = "return !!window.player && player.last !== null"
 
 @pytest.fixture(scope="module")
 def modal(distributed_wet: ow.System) -> xr.Dataset:
-    return modes_to_dataset(distributed_wet, ow.modes(distributed_wet, 6))
+    return modes_dataset(distributed_wet, ow.modes(distributed_wet, 6))
 
 
 @pytest.fixture(scope="module")

@@ -153,7 +153,7 @@ def test_case_of_the_docs(written: Path) -> None:
     """The case file with a load file of one's own runs to a report."""
     case, folder = load_case(written / "my_case.yaml")
     short = case.analysis.model_copy(update={"dt": 0.04, "output_dt": 0.08})
-    summary = run_case(case.model_copy(update={"analysis": short}), folder, written / "out")
+    summary = run_case(case.model_copy(update={"analysis": short}), written / "out", folder=folder)
     assert summary["status"] == "complete"
     assert summary["mudline_moment_y_mean_Nm"] > 4e7
     assert "my_load.txt" in (written / "out" / "report.html").read_text()
@@ -200,7 +200,7 @@ def test_sea_of_the_docs(written: Path) -> None:
     ]
     for number, sea in enumerate(seas):
         out = written / f"sea{number}"
-        summary = run_case(Case.model_validate(base | {"sea": sea}), written, out)
+        summary = run_case(Case.model_validate(base | {"sea": sea}), out, folder=written)
         assert summary["status"] == "complete"
         with xr.open_dataset(out / "results.nc") as data:
             waves = data["wave_elevation"].sel(time=slice(10, 30))
@@ -225,7 +225,7 @@ def test_tower_top_loads_of_the_docs(written: Path) -> None:
     analysis = base["analysis"] | short | {"psd_segment_s": 10.0}
     change = {"turbine": "oc3_phase2", "foundation": "clamped", "sea": {"kind": "still_water"}}
     case = Case.model_validate(base | loads[-1] | change | {"analysis": analysis})
-    summary = run_case(case, written, written / "out")
+    summary = run_case(case, written / "out", folder=written)
     assert summary["mean_thrust_N"] == pytest.approx(485.2e3, rel=0.01)
     assert {row["label"]: row["ratio"] for row in summary["aerodynamic_damping"]}["FA1"] > 0.03
 
@@ -252,7 +252,7 @@ def test_earthquakes_of_the_docs(written: Path, capsys: Any) -> None:
     base |= {"turbine": "oc3_phase2", "sea": {"kind": "still_water"}, "elements": 12}
     for number, earthquake in enumerate(earthquakes):
         out = written / f"earthquake{number}"
-        summary = run_case(Case.model_validate(base | earthquake), written, out)
+        summary = run_case(Case.model_validate(base | earthquake), out, folder=written)
         scale = 1.5 if number == 0 else 1.0
         peak = summary["earthquake"]["peak_ground_acceleration_m_per_s2"]
         assert np.hypot(peak["x"], peak["y"]) == pytest.approx(0.2 * 9.80665 * scale, rel=1e-9)

@@ -84,7 +84,7 @@ def pencil(system: System, about: StaticResult, engine: Engine) -> DensePencil:
     from offwind_pin.dynamics.reference.dense_pencil import DensePencil
 
     check_engine(engine)
-    return DensePencil(system.equations(about.loads, None, about.memory), about.q)
+    return DensePencil(system.equations(about.acting_loads(), None, about.memory), about.q)
 
 
 def moving_chain(

@@ -36,7 +36,7 @@ dissipated is returned.
 
 
 @restraint_commit
-def _nothing_kept(displacement: Array, constants: Array, memory: Array) -> float:
+def nothing_kept_by_root(displacement: Array, constants: Array, memory: Array) -> float:
     """Of a restraint without memory."""
     return 0.0
 
@@ -85,7 +85,7 @@ class KernelRestraint(RootRestraint):
         def commit_kernel(self) -> ExchangeableKernel: ...
 
     else:
-        commit_kernel = _nothing_kept
+        commit_kernel = nothing_kept_by_root
 
     @property
     @abstractmethod
@@ -132,12 +132,12 @@ def _linear(
     stiffness: Array,
     damping: Array,
 ) -> tuple[float, float]:
-    matrices = constants.reshape(2, 6, 6)
     power = stored = 0.0
     for i in range(6):
         elastic = viscous = 0.0
         for j in range(6):
-            stiffness[i, j], damping[i, j] = matrices[0, i, j], matrices[1, i, j]
+            stiffness[i, j] = constants[6 * i + j]
+            damping[i, j] = constants[36 + 6 * i + j]
             elastic += stiffness[i, j] * displacement[j]
             viscous += damping[i, j] * velocity[j]
         reaction[i] = elastic + viscous

@@ -143,7 +143,7 @@ def run(sea: dict[str, Any], folder: Path, out: Path) -> dict[str, Any]:
     path = folder / f"{out.parent.name}.yaml"
     path.write_text(yaml.safe_dump(CASE | {"sea": sea}))
     case, start = load_case(path)
-    return run_case(case, start, out)
+    return run_case(case, out, folder=start)
 
 
 @pytest.mark.parametrize("fault", FAULTS)

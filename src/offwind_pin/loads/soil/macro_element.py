@@ -16,7 +16,7 @@ import numpy as np
 
 from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError
-from offwind_pin.base.kernels import kernel
+from offwind_pin.base.kernels import inner
 from offwind_pin.loads.root_restraint import KernelRestraint, restraint_commit, restraint_kernel
 
 _ARM, _COUNT, _ELEMENTS = 36, 37, 38
@@ -32,7 +32,7 @@ _EQUAL = 1e-6
 """Relative difference of two planes' stiffness that is taken for rounding."""
 
 
-@kernel
+@inner
 def _decoupled(displacement: Array, arm: float) -> tuple[float, float, float, float]:
     """Translations x, y at the decoupling depth, and rotations about y and x."""
     return (
@@ -90,7 +90,7 @@ def _reaction(
     return 0.0, stored
 
 
-@kernel
+@inner
 def _to_mudline(
     force: Array, tangent: Array, arm: float, reaction: Array, stiffness: Array
 ) -> None:

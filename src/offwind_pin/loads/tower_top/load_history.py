@@ -85,7 +85,8 @@ class LoadHistory:
 def _forces(
     motion: Array, constants: Array, time_inputs: Array, memory: Array, force: Array
 ) -> float:
-    force[0, :] = time_inputs
+    for j in range(6):
+        force[0, j] = time_inputs[j]
     return 0.0
 
 

@@ -16,7 +16,7 @@ import numpy as np
 from offwind_pin.base.definition import Array
 from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError
-from offwind_pin.base.kernels import kernel
+from offwind_pin.base.kernels import inner, kernel
 from offwind_pin.definitions.rotor_disc import RotorDisc
 from offwind_pin.loads.point_load import (
     AXIS,
@@ -59,7 +59,7 @@ _TIME_INPUT, _WIND_INPUT = range(2)
 _V = VELOCITY.start
 
 
-@kernel
+@inner
 def lag_weights(step: float, time_constant: float) -> tuple[float, float, float]:
     """Of the last output and of the last and the new input of a first-order lag.
 
@@ -87,7 +87,7 @@ def _shaft(axis: Array, cosine: float, sine: float) -> tuple[float, float, float
     )
 
 
-@kernel
+@inner
 def _operate(
     c: Array, time_inputs: Array, memory: Array, wind: float
 ) -> tuple[float, float, float, float, float]:
@@ -125,7 +125,7 @@ def _operate(
     return thrust, c[_PRESSURE] * slope, operating, driven, induced
 
 
-@kernel
+@inner
 def _relative_wind(
     motion: Array, time_inputs: Array, n: tuple[float, float, float, float]
 ) -> float:

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from offwind_pin.base.definition import Array
-from offwind_pin.base.kernels import kernel
+from offwind_pin.base.kernels import inner
 from offwind_pin.loads.point_load import (
     ACCELERATION,
     AXIS,
@@ -28,13 +28,13 @@ _SURFACE = 0
 """Height of the surface among the time inputs."""
 
 
-@kernel
+@inner
 def along(a: Array, b: Array) -> float:
     """Scalar product of two vectors in space."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
-@kernel
+@inner
 def _resist(motion: Array, mass: float, force: Array) -> None:
     """Set the force of a mass that an acceleration across the axis moves, at one point."""
     axis, acceleration = motion[AXIS], motion[ACCELERATION]
@@ -44,7 +44,7 @@ def _resist(motion: Array, mass: float, force: Array) -> None:
         force[3 + j] = 0.0
 
 
-@kernel
+@inner
 def _resist_tangents(motion: Array, mass: float, blocks: Array) -> None:
     """Set its derivatives by acceleration and axis."""
     axis, acceleration = motion[AXIS], motion[ACCELERATION]

@@ -24,7 +24,8 @@ from offwind_pin.loads.sea.forces.strips import Strips, Water, wet_share
 _INERTIA, _DRAG, _BOTTOM, _LENGTH = range(4)
 """Columns of a strip's constants: rho (1 + Ca) V in kg, rho/2 Cd D l in kg/m, its ends in m."""
 _SURFACE, _FLUID = range(2)
-"""Among the time inputs: height of the surface, and where velocities and accelerations begin."""
+"""Among the time inputs: height of the surface, and where the velocities (n, 3) begin; the
+accelerations (n, 3) follow."""
 _V = VELOCITY.start
 
 
@@ -37,14 +38,13 @@ def morison_forces(
     time_inputs (1 + 6 n) : surface in m, velocity (n, 3) in m/s, acceleration (n, 3) in m/s2
     """
     n = len(motion)
-    fluid = time_inputs[_FLUID:].reshape(2, n, 3)
     relative, accelerated = np.empty(3), np.empty(3)
     power = 0.0
     for i in range(n):
         axis = motion[i, AXIS]
         for j in range(3):
-            relative[j] = fluid[0, i, j] - motion[i, _V + j]
-            accelerated[j] = fluid[1, i, j]
+            relative[j] = time_inputs[_FLUID + 3 * i + j] - motion[i, _V + j]
+            accelerated[j] = time_inputs[_FLUID + 3 * n + 3 * i + j]
         slip, slide = along(relative, axis), along(accelerated, axis)
         for j in range(3):
             relative[j] -= slip * axis[j]
@@ -66,17 +66,17 @@ def morison_tangents(
 ) -> None:
     """d(|w| w)/dw = |w| I + w w' / |w|, and w = P (u_w - v) with P = I - e e' of the axis e."""
     n = len(motion)
-    fluid = time_inputs[_FLUID:].reshape(2, n, 3)
-    slip, w = np.empty(3), np.empty(3)
+    slip, w, accelerated = np.empty(3), np.empty(3), np.empty(3)
     by_w, projector = np.empty((3, 3)), np.empty((3, 3))
     for i in range(n):
         axis = motion[i, AXIS]
         share = wet_share(time_inputs[_SURFACE], constants[i, _BOTTOM], constants[i, _LENGTH])
         inertia, drag_factor = share * constants[i, _INERTIA], share * constants[i, _DRAG]
         for j in range(3):
-            slip[j] = fluid[0, i, j] - motion[i, _V + j]
+            slip[j] = time_inputs[_FLUID + 3 * i + j] - motion[i, _V + j]
+            accelerated[j] = time_inputs[_FLUID + 3 * n + 3 * i + j]
         slide = along(slip, axis)
-        pushed = along(fluid[1, i], axis)
+        pushed = along(accelerated, axis)
         for j in range(3):
             w[j] = slip[j] - slide * axis[j]
             for k in range(3):
@@ -92,7 +92,7 @@ def morison_tangents(
                     turned = axis[m] * slip[k] + (slide if m == k else 0.0)
                     blocks[i, BY_VELOCITY, j, k] -= by_w[j, m] * projector[m, k]
                     blocks[i, BY_AXIS, j, k] -= by_w[j, m] * turned
-                turned = axis[j] * fluid[1, i, k] + (pushed if j == k else 0.0)
+                turned = axis[j] * accelerated[k] + (pushed if j == k else 0.0)
                 blocks[i, BY_AXIS, j, k] -= inertia * turned
 
 

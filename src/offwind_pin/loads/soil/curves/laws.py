@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from offwind_pin.base.definition import Array
-from offwind_pin.base.kernels import kernel
+from offwind_pin.base.kernels import inner
 from offwind_pin.loads.soil.curves.soil_curve import SoilCurve
 
 _STRAIGHT = 1e-9
@@ -207,7 +207,7 @@ class ConicCurves(SoilCurve):
         return _conic_energy(parameters, y)
 
 
-@kernel
+@inner
 def _conic_secant(parameters: Array, y: float) -> tuple[float, float]:
     """Secant stiffness, and the root of the discriminant, zero where the curve is straight."""
     # -n (Y - X)^2 + (1 - n) (Y - K X) (Y - 1) = 0 in X = y / y_u and Y = p / p_u, solved for Y; the
@@ -231,7 +231,7 @@ def _conic_secant(parameters: Array, y: float) -> tuple[float, float]:
     return secant * chord, root
 
 
-@kernel
+@inner
 def _conic_tangent(parameters: Array, y: float) -> float:
     secant, root = _conic_secant(parameters, y)
     end, ultimate, stiffness, n = parameters[0], parameters[1], parameters[2], parameters[3]
@@ -248,7 +248,7 @@ def _conic_tangent(parameters: Array, y: float) -> float:
     return tangent * chord
 
 
-@kernel
+@inner
 def _conic_panel(low: float, high: float, stiffness: float, n: float) -> float:
     """Integral of X^2 over the secant t, with X = m (K - t) / (n (t - 1)^2 + m t (K - t))."""
     m = 1 - n
@@ -260,7 +260,7 @@ def _conic_panel(low: float, high: float, stiffness: float, n: float) -> float:
     return total * (high - low) / 2
 
 
-@kernel
+@inner
 def _conic_energy(parameters: Array, y: float) -> float:
     # A conic has a rational parameter, here the secant t = Y / X, which runs from K at rest to 1:
     # integral of Y dX = t X^2 / 2 + integral of X^2 / 2 over t, both positive. Panels halve towards

@@ -234,10 +234,13 @@ def _evaluators(law: type[SoilCurve]) -> _Evaluators:
     return _Evaluators(*made)
 
 
+_evaluator = exchangeable(
+    types.void(types.float64[:, ::1], types.float64[::1], types.float64[::1]), nogil=True
+)
+
+
 def _over_nodes(function: Callable[[Array, float], float], source: str) -> ExchangeableKernel:
-    @exchangeable(
-        types.void(types.float64[:, ::1], types.float64[::1], types.float64[::1]),
-    )
+    @_evaluator
     def over_nodes(parameters: Array, y: Array, result: Array) -> None:
         _source = source
         for i in range(len(y)):

@@ -7,11 +7,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from offwind_pin.base.definition import Array
-from offwind_pin.base.kernels import kernel
+from offwind_pin.base.kernels import inner
 from offwind_pin.definitions.soil.springs import DampingCurve, SoilDashpot
 
 
-@kernel
+@inner
 def ratio_at(table: Array, y: float) -> tuple[float, float]:
     """Coefficient over secant stiffness in s at a deflection y >= 0, and its derivative by y.
 

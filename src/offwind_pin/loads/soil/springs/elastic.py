@@ -9,7 +9,7 @@ from typing import ClassVar, NamedTuple
 import numpy as np
 
 from offwind_pin.base.definition import Array
-from offwind_pin.base.kernels import ExchangeableKernel, kernel
+from offwind_pin.base.kernels import ExchangeableKernel, inner
 from offwind_pin.loads.point_load import (
     BY_POSITION,
     BY_VELOCITY,
@@ -90,7 +90,7 @@ table of the dashpot that varies, which begins with the number of its points. Th
 curve follow."""
 
 
-@kernel
+@inner
 def deflection_size(values: Array, first: int, components: int) -> float:
     """Size of the deflection in a row of motion."""
     if components == 1:
@@ -123,7 +123,8 @@ def _spring_kernels(law: type[SoilCurve]) -> _SpringKernels:
             spring = secant_at(c[curve:], y) * c[_LENGTH]
             time, _ = ratio_at(c[_DASHPOT:], y)
             dashpot = spring * time + c[CONSTANT_DASHPOT]
-            force[i] = 0.0
+            for j in range(6):
+                force[i, j] = 0.0
             for j in range(components):
                 force[i, f + j] = -spring * motion[i, u + j] - dashpot * motion[i, v + j]
                 power += dashpot * motion[i, v + j] ** 2

@@ -61,9 +61,11 @@ def _friction_kernels(lateral: type[SoilCurve], lever: type[SoilCurve]) -> _Fric
             curve = _LEVER + int(c[_LEVER_SIZE])
             y, angle = deflection_size(motion[i], _U, 2), deflection_size(motion[i], _R, 2)
             stiffness = c[_LENGTH] * secant_at(c[curve:], y) * y * lever_at(c[_LEVER:curve], angle)
-            force[i] = 0.0
+            for j in range(_MOMENT):
+                force[i, j] = 0.0
             for j in range(2):
                 force[i, _MOMENT + j] = -stiffness * motion[i, _R + j]
+            force[i, _MOMENT + 2] = 0.0
         return 0.0
 
     @tangent_kernel

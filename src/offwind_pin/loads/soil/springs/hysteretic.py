@@ -15,7 +15,7 @@ import numpy as np
 
 from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError
-from offwind_pin.base.kernels import kernel
+from offwind_pin.base.kernels import inner
 from offwind_pin.loads.point_load import (
     KernelLoad,
     commit_kernel,
@@ -48,7 +48,7 @@ _SEARCHED = np.geomspace(1e-9, 10.0, 2001)
 """Deflections in m or rad among which those two are found."""
 
 
-@kernel
+@inner
 def _stretch(
     values: Array, u: int, components: int, memory: Array, first: int
 ) -> tuple[float, float, float]:
@@ -78,7 +78,8 @@ def _forces(
             along_x += pull * x
             along_y += pull * y
             first += components
-        force[i] = 0.0
+        for j in range(6):
+            force[i, j] = 0.0
         force[i, f] = -along_x
         if components == 2:
             force[i, f + 1] = -along_y
