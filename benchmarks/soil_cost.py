@@ -21,8 +21,11 @@ from step_cost import CONVERGED
 from step_parts import STEPS, Motion, in_motion
 
 import offwind_pin as ow
-from offwind_pin.base.kernels import exchanging_kernels, kernel
-from offwind_pin.dynamics.compiled.chain_arrays import ChainArrays
+from offwind_pin.base.kernels import kernel
+from offwind_pin.base.records import part
+from offwind_pin.dynamics.compiled.chain import Run
+from offwind_pin.dynamics.compiled.residual import constants_of
+from offwind_pin.loads.point_load import tangent_kernel
 from offwind_pin.loads.tower_top.load_history import TowerTopLoad
 
 Array = NDArray[np.float64]
@@ -93,8 +96,7 @@ def main(argv: list[str] | None = None) -> dict[str, Any]:
         runs[name, "step"] = partial(repeat, cases[name])
         if len(soil_loads(motions[name])):
             runs[name, "tangents"] = partial(tangents, motions[name])
-    with exchanging_kernels():
-        taken = measuring.rounds(runs, given.repeats)
+    taken = measuring.rounds(runs, given.repeats)
     steps = given.seconds / cases[SHIPPED].dt
     reference = taken[SHIPPED, "step"]
     rows = []
@@ -188,17 +190,25 @@ def soil_loads(motion: Motion) -> Indices:
 
 def tangents(motion: Motion, count: int) -> None:
     """The tangents of all soil loads, so many times in a row."""
-    _tangents(motion.chain.arrays, motion.rows[0], soil_loads(motion), count)
+    chain = motion.chain
+    run = chain.run(chain.recorder(chain.sections(chain.system.chain.boundary)))
+    _tangents(run, motion.rows[0], soil_loads(motion), count)
+
+
+_call = tangent_kernel.call
 
 
 @kernel
-def _tangents(s: ChainArrays, row: Array, chosen: Indices, count: int) -> None:
+def _tangents(run: Run, time_inputs: Array, chosen: Indices, count: int) -> None:
+    model, motion, memory, blocks = run.model, run.data.motion, run.state.memory, run.factors.blocks
     for _ in range(count):
         for i in chosen:
-            points = slice(s.first_point[i], s.first_point[i + 1])
-            numbers = row[s.first_number[i] : s.first_number[i + 1]]
-            past = s.memory[s.first_memory[i] : s.first_memory[i + 1]]
-            s.tangents[i](s.motion[points], s.constants[i], numbers, past, s.blocks[points])
+            first, last = model.first_point[i], model.first_point[i + 1]
+            numbers = part(time_inputs, model.first_input[i], model.first_input[i + 1])
+            past = part(memory, model.first_memory[i], model.first_memory[i + 1])
+            points = part(motion, first, last)
+            arguments = (points, constants_of(model, i), numbers, past, part(blocks, first, last))
+            _call(model.tangents[i], arguments)
 
 
 if __name__ == "__main__":

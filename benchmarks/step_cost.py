@@ -21,7 +21,6 @@ from step_parts import STEPS, Motion, in_motion, part_runs, seconds_of_a_step
 
 import offwind_pin as ow
 from offwind_pin.analysis.static import load_scale
-from offwind_pin.base.kernels import exchanging_kernels
 from offwind_pin.definitions.turbine import RotorNacelleRNA
 from offwind_pin.dynamics.compiled.chain import CompiledChain
 from offwind_pin.loads.point_load import PointLoad
@@ -51,8 +50,7 @@ def main(argv: list[str] | None = None) -> dict[str, Any]:
     sizes = [prepare(n, given.seconds, given.steps) for n in given.elements]
     # In each round all sizes take their turn, so that a busy minute does not bend the curve.
     runs = {(size.elements, name): run for size in sizes for name, run in size.runs.items()}
-    with exchanging_kernels():
-        taken = measuring.rounds(runs, given.repeats)
+    taken = measuring.rounds(runs, given.repeats)
     rows = [
         row_of(size, {name: taken[size.elements, name] for name in size.runs}, given.seconds)
         for size in sizes

@@ -19,12 +19,10 @@ from offwind_pin.analysis.integrators import GeneralizedAlpha
 from offwind_pin.analysis.static import load_scale, static
 from offwind_pin.base.kernels import kernel
 from offwind_pin.dynamics.compiled.chain import CompiledChain, Run
-from offwind_pin.dynamics.compiled.chain_arrays import ChainArrays
-from offwind_pin.dynamics.compiled.forward_kinematics import move, move_points
-from offwind_pin.dynamics.compiled.newton_matrix import correction, factorise
-from offwind_pin.dynamics.compiled.recorder_arrays import RecorderArrays
-from offwind_pin.dynamics.compiled.recording import take_note
-from offwind_pin.dynamics.compiled.residual import balance, evaluate_loads
+from offwind_pin.dynamics.compiled.forward_kinematics import move_bodies, move_points
+from offwind_pin.dynamics.compiled.newton_matrix import factorise_kernel, solve_kernel
+from offwind_pin.dynamics.compiled.recording import note_kernel
+from offwind_pin.dynamics.compiled.residual import evaluate_kernel, evaluate_loads
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.point_load import PointLoad
 from offwind_pin.solvers import generalized_alpha
@@ -69,9 +67,9 @@ def in_motion(system: System, loads: Sequence[PointLoad], dt: float, steps: int 
         settings.increment_tolerance,
     )
     instants: Array = dt * np.arange(1, 2 * steps + 1, dtype=float)
-    rows = chain.rows(instants)
+    rows = chain.time_inputs(instants)
     q = static(system, loads=loads).q
-    state = start(chain, chain.rows(np.zeros(1))[0], q, np.zeros_like(q))
+    state = start(chain, chain.time_inputs(np.zeros(1))[0], q, np.zeros_like(q))
     counted = Counted(chain)
     done, reason, _ = advance(counted, method, state, rows[:steps], np.zeros_like(q))
     if done < steps:
@@ -93,9 +91,11 @@ class Counted:
         self.count["balance"] += 1
         return self.chain.residual(row, q, v, a)
 
-    def factorise(self, row: Array, q: Array, v: Array, a: Array, by_v: float, by_a: float) -> None:
+    def factorise(
+        self, row: Array, q: Array, v: Array, a: Array, dv_dq: float, da_dq: float
+    ) -> None:
         self.count["factorisation"] += 1
-        self.chain.factorise(row, q, v, a, by_v, by_a)
+        self.chain.factorise(row, q, v, a, dv_dq, da_dq)
 
     def correction(self, residual: Array) -> Array:
         self.count["solution"] += 1
@@ -111,21 +111,21 @@ def part_runs(motion: Motion, sections: Any, every: int) -> dict[str, Callable[[
     sections : what is recorded; every : steps between records
     """
     chain, row = motion.chain, motion.rows[0]
-    arrays, (q, v, a) = chain.arrays, motion.state[:3]
-    recorder = chain.recorder(sections, every, 1)
-    by_a = 1 / motion.method.step**2
-    by_v = motion.method.step / 2 * by_a
+    q, v, a = motion.state[:3]
+    run = chain.run(chain.recorder(sections, every, 1))
+    da_dq = 1 / motion.method.step**2
+    dv_dq = motion.method.step / 2 * da_dq
     idle, rest = Idle(np.zeros_like(q)), np.zeros_like(motion.state)
     residual = chain.residual(row, q, v, a)
     instants = motion.rows[:, 0].copy()
-    chain.factorise(row, q, v, a, by_v, by_a)
+    chain.factorise(row, q, v, a, dv_dq, da_dq)
     return {
-        "motion": lambda n: _moves(arrays, row, q, v, a, n),
-        "loads": lambda n: _loads(arrays, row, n),
-        "balance": lambda n: _balances(arrays, row, q, v, a, n),
-        "solution": lambda n: _solutions(arrays, residual, n),
-        "factorisation": lambda n: _factorisations(arrays, row, by_v, by_a, n),
-        "notes": lambda n: _notes(arrays, recorder, row, q, v, n),
+        "motion": lambda n: _moves(run, n),
+        "loads": lambda n: _loads(run, row, n),
+        "balance": lambda n: _balances(run, row, n),
+        "solution": lambda n: _solutions(run, residual, n),
+        "factorisation": lambda n: _factorisations(run, row, dv_dq, da_dq, n),
+        "notes": lambda n: _notes(run, row, n),
         "idle": lambda n: _idle_advance(idle, motion.method, rest, np.zeros((n, 1)), rest[0]),
         "compiled block": lambda n: compiled_steps(motion, sections, every, n),
         "rows of a block": lambda n: numbers(chain, instants, n),
@@ -165,7 +165,7 @@ def compiled_steps(motion: Motion, sections: Any, every: int, count: int) -> Non
     last = np.zeros(motion.state.shape[1])
     for _ in range(count):
         recorder = motion.chain.recorder(sections, every, records)
-        run = Run(motion.chain.arrays, recorder)
+        run = motion.chain.run(recorder)
         done, _, _ = compiled_advance(run, motion.method, motion.state.copy(), motion.rows, last)
         if done < len(motion.rows):
             raise RuntimeError(f"step {done} failed; its time counts for nothing")
@@ -175,45 +175,51 @@ def numbers(chain: CompiledChain, instants: Array, count: int) -> None:
     """Wave kinematics and load histories at instants, for a new block of them each time."""
     length = instants[-1] - instants[0] + instants[1] - instants[0]
     for i in range(count):
-        chain.rows(instants + (i % 7) * length)
+        chain.time_inputs(instants + (i % 7) * length)
+
+
+_call_evaluate, _call_factorise = evaluate_kernel.call, factorise_kernel.call
+_call_solve, _call_take_note = solve_kernel.call, note_kernel.call
 
 
 @kernel
-def _moves(s: ChainArrays, row: Array, q: Array, v: Array, a: Array, count: int) -> None:
+def _moves(run: Run, count: int) -> None:
     for _ in range(count):
-        move(s, row, q, v, a)
-        move_points(s, row)
+        move_bodies(run.model, run.data, run.state)
+        move_points(run.model, run.data)
 
 
 @kernel
-def _loads(s: ChainArrays, row: Array, count: int) -> None:
+def _loads(run: Run, row: Array, count: int) -> None:
     for _ in range(count):
-        evaluate_loads(s, row)
+        evaluate_loads(run.model, run.data, run.state, row)
 
 
 @kernel
-def _balances(s: ChainArrays, row: Array, q: Array, v: Array, a: Array, count: int) -> None:
+def _balances(run: Run, row: Array, count: int) -> None:
     for _ in range(count):
-        balance(s, row, q, v, a)
+        _call_evaluate(run.evaluate, (run.model, run.data, run.state, row))
 
 
 @kernel
-def _solutions(s: ChainArrays, residual: Array, count: int) -> None:
+def _solutions(run: Run, residual: Array, count: int) -> None:
     for _ in range(count):
-        correction(s, residual)
+        _call_solve(run.solve, (run.model, run.factors, residual))
 
 
 @kernel
-def _factorisations(s: ChainArrays, row: Array, by_v: float, by_a: float, count: int) -> None:
+def _factorisations(run: Run, row: Array, dv_dq: float, da_dq: float, count: int) -> None:
     for _ in range(count):
-        factorise(s, row, by_v, by_a)
+        arguments = (run.model, run.data, run.state, run.factors, row, dv_dq, da_dq)
+        _call_factorise(run.factorise, arguments)
 
 
 @kernel
-def _notes(s: ChainArrays, r: RecorderArrays, row: Array, q: Array, v: Array, count: int) -> None:
+def _notes(run: Run, row: Array, count: int) -> None:
     for _ in range(count):
-        r.tally[1] = 0
-        take_note(s, r, row, q, v, 1, 1.0)
+        run.recorder.tally[1] = 0
+        arguments = (run.model, run.data, run.state, run.recorder, row, 1, 1.0)
+        _call_take_note(run.take_note, arguments)
 
 
 class Idle(NamedTuple):
@@ -235,8 +241,8 @@ def _residual(system: Any, row: Any, q: Any, v: Any, a: Any) -> Any:
 
 
 @overload(generalized_alpha.factorise)
-def _factorise(system: Any, row: Any, q: Any, v: Any, a: Any, by_v: Any, by_a: Any) -> Any:
-    def of_idle(system: Any, row: Any, q: Any, v: Any, a: Any, by_v: Any, by_a: Any) -> Any:
+def _factorise(system: Any, row: Any, q: Any, v: Any, a: Any, dv_dq: Any, da_dq: Any) -> Any:
+    def of_idle(system: Any, row: Any, q: Any, v: Any, a: Any, dv_dq: Any, da_dq: Any) -> Any:
         pass
 
     return of_idle if _is_idle(system) else None

@@ -7,6 +7,7 @@ from offwind_pin.analysis.modal import ModalResult, modes
 from offwind_pin.analysis.simulate import simulate
 from offwind_pin.analysis.static import StaticResult, static
 from offwind_pin.base.errors import InputError, InterruptedSimulation, OffwindError, SolverError
+from offwind_pin.cases.run import run_case
 from offwind_pin.definitions.reader import load_turbine
 from offwind_pin.definitions.shipped import shipped_turbines
 from offwind_pin.definitions.tuned_mass_damper import DampedAbsorber, den_hartog
@@ -20,6 +21,7 @@ from offwind_pin.loads.sea.sea import RegularWaves, StillWater
 from offwind_pin.loads.sea.waves.spectra import JonswapSpectrum
 from offwind_pin.loads.tower_top.load_history import LoadHistory, read_load_history
 from offwind_pin.loads.wind.rotor_thrust import RotorThrust
+from offwind_pin.results.reading import open_results
 
 # Names that have moved to a namespace can still be imported from here.
 from offwind_pin.sea import Crest as Crest
@@ -106,8 +108,10 @@ __all__ = [
     "export_urdf",
     "load_turbine",
     "modes",
+    "open_results",
     "plots",
     "read_load_history",
+    "run_case",
     "sea",
     "shipped_turbines",
     "signal",

@@ -16,8 +16,8 @@ from pathlib import Path
 
 import xarray as xr
 
+from offwind_pin.analysis.drawing_data import modes_dataset
 from offwind_pin.analysis.modal import ModalResult
-from offwind_pin.cases.run import modes_to_dataset
 from offwind_pin.display.viewer.serve import address, page_server
 from offwind_pin.display.viewer.view import View
 from offwind_pin.dynamics.system import System
@@ -39,7 +39,7 @@ def mode_shapes(system: System, modes: ModalResult, labels: Sequence[str] | None
     InputError : a label that is not among the modes, or too many
     """
     chosen = None if labels is None else list(labels)
-    return View(modes_to_dataset(system, modes), labels=chosen).page()
+    return View(modes_dataset(system, modes), labels=chosen).page()
 
 
 def time_history(
@@ -58,8 +58,8 @@ def time_history(
     """
     if isinstance(results, xr.Dataset):
         return View(results, start, duration).page()
-    with open_results(Path(results)) as data:
-        return View(data, start, duration).page()
+    with open_results(results) as tree:
+        return View(tree.to_dataset(), start, duration).page()
 
 
 def serve(

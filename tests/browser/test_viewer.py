@@ -14,14 +14,23 @@ from urllib.parse import urlsplit
 import numpy as np
 import pytest
 import xarray as xr
-from helpers.pages import PATIENCE, Visit, changed_share, drawn_share, picture, wait
+from helpers.pages import (
+    PATIENCE,
+    Visit,
+    changed_share,
+    drawn_share,
+    picture,
+    time_after_frames,
+    wait,
+)
 from numpy.testing import assert_allclose
 from scipy.spatial.transform import Rotation
 from selenium import webdriver
 from selenium.webdriver.common.by import By
+from selenium.webdriver.support.ui import WebDriverWait
 
 import offwind_pin as ow
-from offwind_pin.cases.run import modes_to_dataset
+from offwind_pin.analysis.drawing_data import modes_dataset
 from offwind_pin.display.viewer.history_frames import Frames, frames
 from offwind_pin.display.viewer.history_page import ARROW_SHARE, colour_ramp, time_history_page
 from offwind_pin.display.viewer.mode_frames import Shapes, shapes
@@ -35,7 +44,7 @@ READY = "return !!window.player && player.last !== null"
 
 @pytest.fixture(scope="module")
 def modal(distributed_wet: ow.System) -> xr.Dataset:
-    return modes_to_dataset(distributed_wet, ow.modes(distributed_wet, 6))
+    return modes_dataset(distributed_wet, ow.modes(distributed_wet, 6))
 
 
 @pytest.fixture(scope="module")
@@ -178,15 +187,13 @@ class TestModes:
         pause = driver.find_element(By.ID, "pause")
         pause.click()
         before = rings(driver)
-        assert driver.execute_async_script(
-            "const done = arguments[arguments.length - 1], now = player.now;"
-            "setTimeout(() => done(player.now === now), 400)"
-        )
+        now = driver.execute_script("return player.now")
+        assert time_after_frames(driver) == now
         assert_allclose(rings(driver), before)
         pause.click()
-        now = driver.execute_script("return player.now")
-        wait(driver, f"return player.now > {now} + 0.2")
-        assert np.abs(rings(driver) - before).max() > 1e-3
+        WebDriverWait(driver, PATIENCE).until(
+            lambda chrome: np.abs(rings(chrome) - before).max() > 1e-3
+        )
 
     def test_stripes_show_the_turning(
         self, driver: webdriver.Chrome, page: Path, shown: Shapes

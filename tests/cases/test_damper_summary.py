@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from offwind_pin.cases.summary import summarise_dampers
+from offwind_pin.cases.tree_summary import summarise_dampers
 
 
 def test_the_farthest_slide_counts_in_both_directions() -> None:

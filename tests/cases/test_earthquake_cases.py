@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -11,13 +12,14 @@ import pytest
 import xarray as xr
 import yaml
 from helpers.earthquakes import shaking
+from offwind_pin.cases.schema.earthquake import Shaking
 
 import offwind_pin as ow
 from offwind_pin.analysis.foundation.study.state import soil_displacement_reached, soil_springs
 from offwind_pin.cases.case import load_case
+from offwind_pin.cases.earthquake import PERIODS, earthquake_dataset
 from offwind_pin.cases.run import run_case
 from offwind_pin.display.figures.earthquake import response_spectrum_plot
-from offwind_pin.loads.earthquake.description import EarthquakeDescription
 from offwind_pin.signal.response_spectrum import response_spectrum
 
 CASE: dict[str, Any] = {
@@ -57,7 +59,7 @@ def case(folder: Path, earthquake: dict[str, Any], **changes: Any) -> Path:
 def test_case_to_report(folder: Path) -> None:
     """Scaled, turned into y, later, corrected: in the results, in the summary and in the page."""
     how = {"scale": 0.5, "direction_deg": 90.0, "start_s": 3.0, "baseline": "parabolic"}
-    run_case(load_case(case(folder, RECORD | how)), folder / "out")
+    run_case(case(folder, RECORD | how), folder / "out")
     motion = shaking(12.0, 0.02)
     record = np.zeros((len(motion.time), 3))
     record[:, 1], record[:, 2] = 0.5 * motion.acceleration[:, [0, 2]].T
@@ -96,7 +98,7 @@ def test_levels_by_depth(folder: Path) -> None:
         RECORD | {"z_m": -20.0, "components": ["x", "z"]},
         RECORD | {"z_m": -75.0, "file": "deep.txt"},
     ]
-    run_case(load_case(case(folder, {"levels": levels, "start_s": 1.0})), folder / "out")
+    run_case(case(folder, {"levels": levels, "start_s": 1.0}), folder / "out")
     with xr.open_dataset(folder / "out" / "results.nc") as data:
         assert data["level"].to_numpy().tolist() == [-75.0, -20.0]
         ground = data["ground_acceleration"].sel(direction="x").to_numpy()
@@ -164,7 +166,7 @@ def test_bad_earthquakes(fault: str, folder: Path) -> None:
     earthquake, told = FAULTS[fault]
     np.savetxt(folder / "short.txt", [[0, 0.1, 0.1], [1, 0.2, 0]])
     with pytest.raises(ow.InputError) as error:
-        run_case(load_case(case(folder, earthquake)), folder / "out")
+        run_case(case(folder, earthquake), folder / "out")
     assert all(text in str(error.value) for text in told)
     assert not (folder / "out" / "summary.json").exists()
     assert not (folder / "out" / "results.nc").exists()
@@ -180,9 +182,10 @@ def test_picture_has_what_it_should() -> None:
     """A panel for each component that moves, the spectrum's lines, and marks at the periods shown."""
     motion = shaking(peak=(3.0, 0.0, 1.0))
     record = motion.corrected[0]
-    spectrum = response_spectrum(record, motion.step, np.geomspace(0.05, 10, 40))
+    spectrum = response_spectrum(record, motion.step, PERIODS)
     periods = {"FA1": 4.2, "SS1": 4.25, "FA2": 0.9, "beyond": 20.0}
-    figure = response_spectrum_plot(EarthquakeDescription(motion.time, record, spectrum, periods))
+    modes = SimpleNamespace(label=list(periods), frequency_hz=1 / np.array([*periods.values()]))
+    figure = response_spectrum_plot(earthquake_dataset(Shaking(motion, [], 9.81), modes))
     assert len(figure.axes) == 3
     lines = {line.get_label(): line for line in figure.axes[-1].lines}
     np.testing.assert_allclose(lines["x"].get_ydata(), spectrum.pseudo_acceleration[:, 0])

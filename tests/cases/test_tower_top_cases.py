@@ -15,7 +15,6 @@ from helpers.openfast_files import UNITS, YAW_BEARING, some_load, write_out, wri
 
 import offwind_pin as ow
 from offwind_pin.analysis.aerodynamic_damping import aerodynamic_damping
-from offwind_pin.cases.case import load_case
 from offwind_pin.cases.run import run_case
 from offwind_pin.formats.openfast.yaw_bearing_load import weight_at_yaw_bearing
 from offwind_pin.loads.wind.thrust_table import thrust_curve
@@ -41,7 +40,7 @@ ROTOR = {"kind": "rotor", "wind_speed_m_per_s": 9.0, "turbulence_class": "B"}
 
 def run(folder: Path, load: dict[str, Any]) -> dict[str, Any]:
     (folder / "case.yaml").write_text(yaml.safe_dump(CASE | {"tower_top_load": load}))
-    run_case(load_case(folder / "case.yaml"), folder / "out")
+    run_case(folder / "case.yaml", folder / "out")
     summary: dict[str, Any] = json.loads((folder / "out" / "summary.json").read_text())
     return summary
 

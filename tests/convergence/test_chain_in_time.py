@@ -58,11 +58,11 @@ def compiled_with_records(
     method = GeneralizedAlpha(FixedStep(dt), radius, 1e-11, 1e-11)
     chain = CompiledChain(system, loads)
     sections = chain.sections(system.chain.boundary)
-    vectors = start(chain, chain.rows(np.zeros(1))[0], q, v)
+    vectors = start(chain, chain.time_inputs(np.zeros(1))[0], q, v)
     states = [method.begin(chain, q, dt)._replace(vectors=vectors)]
     records = []
     for number in range(1, round(end / dt) + 1):
-        after, record = method.cross(chain, sections, states[-1], np.array([number * dt]))
+        after, record = method.advance(chain, sections, states[-1], np.array([number * dt]))
         states.append(after)
         records.append(record)
     return states, {name: np.concatenate([r[name] for r in records]) for name in records[0]}

@@ -52,13 +52,10 @@ def test_a_tilted_mass_hangs_in_its_spring(damped: ow.System) -> None:
     found = ow.static(damped, PUSH)
     chain = CompiledChain(damped, found.loads, np.inf)
     rest = np.zeros(damped.nv)
-    chain.residual(chain.rows(np.zeros(1))[0], found.q, rest, rest)
+    chain.residual(chain.time_inputs(np.zeros(1))[0], found.q, rest, rest)
     gravity, joints = damped.turbine.site.gravity, damped.chain.axis_joints
     expected = [
-        -mass.mass
-        * gravity
-        / mass.stiffness
-        * chain.arrays.rotation[mass.body, 2, "xy".index(j[1])]
+        -mass.mass * gravity / mass.stiffness * chain.data.rotation[mass.body, 2, "xy".index(j[1])]
         for mass in damped.chain.sliding_mass
         for j in mass.joints
     ]
@@ -115,12 +112,12 @@ def test_section_loads_jump_by_the_damper_s_force(damped: ow.System, seed: int) 
     chain = CompiledChain(damped)
     acceleration = chain.equations().acceleration(0.0, state.q, state.v)
     cuts = np.array([height, height + 1e-7, damped.chain.top])
-    row = chain.rows(np.zeros(1))[0]
+    row = chain.time_inputs(np.zeros(1))[0]
     record = chain.record(chain.sections(cuts), row, state.q, state.v, acceleration)
     load = record.section_load[0]
     pull = damped.joint_stiffness * state.q + damped.joint_damping * state.v
     names = damped.chain.joint_name
-    axes = chain.arrays.rotation[damped.chain.body_at(np.array([height]))[0]]
+    axes = chain.data.rotation[damped.chain.body_at(np.array([height]))[0]]
     jump = axes.T @ (load[0, :3] - load[1, :3])
     across_x = pull[names.index("zz_tmd_guide_px")]
     across_y = pull[names.index("zz_tmd_guide_py")] + pull[names.index("zz_tmd_middle_py")]
@@ -134,7 +131,7 @@ def test_section_loads_jump_by_the_damper_s_force(damped: ow.System, seed: int) 
     )
     gravity = np.array([0.0, 0.0, damped.turbine.site.gravity])
     need = [
-        chain.arrays.slider[d, 0] * (chain.arrays.slider_acceleration[d] + gravity)
+        chain.model.tmd.mass[d] * (chain.data.tmd_acceleration[d] + gravity)
         for d in (guide, middle)
     ]
     assert jump[0] == pytest.approx(across_x - axes[:, 0] @ need[1], abs=10.0)
@@ -145,7 +142,7 @@ def test_pinocchio_s_acceleration_of_the_masses(damped: ow.System) -> None:
     """Place, velocity and acceleration with Coriolis terms, by forward kinematics."""
     state = random_state(damped, 3, 0.5)
     chain = CompiledChain(damped)
-    chain.residual(chain.rows(np.zeros(1))[0], state.q, state.v, state.a)
+    chain.residual(chain.time_inputs(np.zeros(1))[0], state.q, state.v, state.a)
     model, data = damped.pin_model, damped.scratch.data
     pin.forwardKinematics(model, data, state.q, state.v, state.a)
     for d, mass in enumerate(damped.chain.sliding_mass):
@@ -156,8 +153,8 @@ def test_pinocchio_s_acceleration_of_the_masses(damped: ow.System) -> None:
             pin.getVelocity(model, data, joint, frame).linear,
             pin.getClassicalAcceleration(model, data, joint, frame).linear,
         ]
-        s = chain.arrays
-        found = [s.slider_place[d], s.slider_velocity[d], s.slider_acceleration[d]]
+        s = chain.data
+        found = [s.tmd_position[d], s.tmd_velocity[d], s.tmd_acceleration[d]]
         for ours, theirs in zip(found, expected, strict=True):
             assert ours == pytest.approx(theirs, rel=1e-12, abs=1e-12)
 
@@ -402,7 +399,7 @@ def test_a_damper_on_a_clamped_base(undamped: ow.Turbine, element: Element) -> N
     system = ow.build(several(undamped), "clamped", elements=6, element=element)
     assert [mass.body for mass in system.chain.sliding_mass][-1] == 0
     state, chain = random_state(system, 4), CompiledChain(system)
-    equations, row = chain.equations(), chain.rows(np.zeros(1))[0]
+    equations, row = chain.equations(), chain.time_inputs(np.zeros(1))[0]
     found = chain.residual(row, state.q, state.v, state.a)
     expected = equations.residual(0.0, state.q, state.v, state.a)
     sliding = slice(system.chain.axis_joints, None)

@@ -51,7 +51,7 @@ def test_free_body_between_two_cuts(
     rest = np.zeros(dry.nv)
     ends = np.array([low, high])
     chain = CompiledChain(dry, result.loads, np.inf)
-    row = chain.rows(np.zeros(1))[0]
+    row = chain.time_inputs(np.zeros(1))[0]
     cuts = chain.record(chain.sections(ends), row, result.q, rest, rest).section_load[0]
     motion = dry.equations().chain_motion(result.q, rest)
     place = motion.points_at(ends).position
@@ -83,8 +83,8 @@ def test_section_loads_are_continuous_across_joints(
     state = random_state(coarse, seed, size=0.02)
     chain = CompiledChain(coarse)
     height = coarse.chain.joint_height[joint] + np.array([-1e-7, 1e-7])
-    assert np.abs(chain.arrays.point_height - height.mean()).min() > 1e-3
-    row = chain.rows(np.ones(1))[0]
+    assert np.abs(chain.model.point_height - height.mean()).min() > 1e-3
+    row = chain.time_inputs(np.ones(1))[0]
     record = chain.record(chain.sections(height), row, state.q, state.v, state.a)
     below, above = record.section_load[0]
     for part in (slice(0, 3), slice(3, 6)):

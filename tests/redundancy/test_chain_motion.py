@@ -124,14 +124,14 @@ def test_loads_are_shown_the_same_motion(
     any_system.equations([probe]).residual(0.0, state.q, state.v, state.a)
     assert_same_motion(probe.seen.pop(), frames, height)
     chain = CompiledChain(any_system, [probe])
-    chain.residual(chain.rows(np.zeros(1))[0], state.q, state.v, state.a)
+    chain.residual(chain.time_inputs(np.zeros(1))[0], state.q, state.v, state.a)
     assert_same_motion(probe.seen.pop(), frames, height)
 
 
 def test_records_show_the_same_motion(any_system: ow.System, state: State, height: Array) -> None:
     """So do the compiled records at cuts."""
     frames, chain = Frames(any_system, height, state), CompiledChain(any_system)
-    row = chain.rows(np.zeros(1))[0]
+    row = chain.time_inputs(np.zeros(1))[0]
     record = chain.record(chain.sections(height), row, state.q, state.v, state.a)
     undeformed = np.column_stack([np.zeros((len(height), 2)), height])
     assert relative_difference(record.displacement[0], frames.position() - undeformed) < TOLERANCE
@@ -157,8 +157,8 @@ def test_top_rotation(any_system: ow.System, state: State) -> None:
     poses = body_poses(any_system, state.q)
     assert relative_difference(poses[-1, :3, :3], expected) < TOLERANCE
     chain = CompiledChain(any_system)
-    chain.residual(chain.rows(np.zeros(1))[0], state.q, state.v, state.a)
-    assert relative_difference(chain.arrays.rotation, poses[:, :3, :3]) < TOLERANCE
+    chain.residual(chain.time_inputs(np.zeros(1))[0], state.q, state.v, state.a)
+    assert relative_difference(chain.data.rotation, poses[:, :3, :3]) < TOLERANCE
 
 
 def test_derivatives_of_the_motion(any_system: ow.System, state: State, height: Array) -> None:

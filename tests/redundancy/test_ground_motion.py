@@ -35,7 +35,7 @@ def motions(system: ow.System) -> dict[str, ow.GroundMotion]:
 
 
 def compiled(chain: CompiledChain, state: State) -> Array:
-    return chain.residual(chain.rows(np.array([TIME]))[0], state.q, state.v, state.a)
+    return chain.residual(chain.time_inputs(np.array([TIME]))[0], state.q, state.v, state.a)
 
 
 @pytest.mark.parametrize("kind", ["uniform", "by depth"])
@@ -83,9 +83,9 @@ def test_soil_stands_in_the_ground_at_its_depth(linear_soil: ow.System) -> None:
     motion = replace(motion, height=motion.height + np.array([0, 3.0, -4.0, 5.0, 0]))
     chain, state = CompiledChain(linear_soil, ground_motion=motion), random_state(linear_soil)
     compiled(chain, state)
-    s, (soil,) = chain.arrays, linear_soil.foundation.soil
+    s, m, (soil,) = chain.data, chain.model, linear_soil.foundation.soil
     place = next(i for i, load in enumerate(chain.loads) if load is soil)
-    at = slice(*s.first_point[place : place + 2])
+    at = slice(*m.first_point[place : place + 2])
     given = motion.motion(np.array([TIME]))[0]
     assert motion.height is not None
 
@@ -93,18 +93,18 @@ def test_soil_stands_in_the_ground_at_its_depth(linear_soil: ow.System) -> None:
         columns = (np.interp(height, motion.height, given[:, part, j]) for j in range(3))
         return np.column_stack(list(columns))
 
-    moved = s.motion[at, :3] - [0, 0, 1] * s.point_height[at, None]
+    moved = s.motion[at, :3] - [0, 0, 1] * m.point_height[at, None]
     assert s.motion[at, 3:6] == pytest.approx(moved - ground(soil.height, 0), abs=1e-12)
-    axis, body = s.rotation[s.point_body[at], :, 2], s.point_body[at]
-    arm = s.point_offset[at, None] * axis
-    speed = s.velocity[body] + np.cross(s.spin[body], arm)
+    axis, body = s.rotation[m.point_body[at], :, 2], m.point_body[at]
+    arm = m.point_offset[at, None] * axis
+    speed = s.velocity[body] + np.cross(s.angular_velocity[body], arm)
     assert s.motion[at, 6:9] == pytest.approx(speed - ground(soil.height, 1), abs=1e-12)
-    others = np.setdiff1d(np.arange(len(s.point_body)), np.arange(at.start, at.stop))
-    moved = s.motion[others, :3] - [0, 0, 1] * s.point_height[others, None]
+    others = np.setdiff1d(np.arange(len(m.point_body)), np.arange(at.start, at.stop))
+    moved = s.motion[others, :3] - [0, 0, 1] * m.point_height[others, None]
     assert s.motion[others, 3:6] == pytest.approx(moved, abs=1e-12)
     base = np.array([linear_soil.chain.base])
     compiled(chain, replace(state, q=0 * state.q, v=0 * state.v, a=0 * state.a))
-    assert s.origin[0] == pytest.approx(ground(base, 0)[0] + [0, 0, base[0]], abs=1e-12)
+    assert s.position[0] == pytest.approx(ground(base, 0)[0] + [0, 0, base[0]], abs=1e-12)
     assert s.acceleration[0] == pytest.approx(ground(base, 2)[0], abs=1e-12)
     assert np.ptp(ground(soil.height, 0)[:, 0]) > 0.01
 
@@ -135,7 +135,7 @@ def test_iteration_matrix_in_an_earthquake(in_waves: ow.System, state: State) ->
     motion = by_depth(in_waves)
     at_rest = replace(motion, time=motion.time - TIME + 1e-9)
     chain = CompiledChain(in_waves, [], 0.0, at_rest)
-    row = chain.rows(np.zeros(1))[0]
+    row = chain.time_inputs(np.zeros(1))[0]
     levels = len(motion.levels)
     row[1 : 1 + 9 * levels].reshape(levels, 3, 3)[:, 1] = 0.0  # no velocities
     rest, unit = np.zeros_like(state.q), np.eye(len(state.q))
@@ -172,11 +172,11 @@ def test_a_free_chain_does_not_notice_the_ground(undamped: ow.Turbine) -> None:
     )
     system = ow.build(turbine, "coupled_springs", elements=5)
     chain = CompiledChain(system, ground_motion=shaking(6.0, 0.05))
-    row = chain.rows(np.array([TIME]))[0]
+    row = chain.time_inputs(np.array([TIME]))[0]
     q, v, a = np.zeros((3, system.nv))
     q[:3], v[:3], a[:3] = -row[1:10].reshape(3, 3)
     scale = np.abs(chain.residual(row, 0 * q, 0 * v, 0 * a)).max()
     assert scale > 1e5
     assert np.abs(chain.residual(row, q, v, a)).max() < 1e-12 * scale
-    assert np.abs(chain.arrays.origin[:, :2]).max() < 1e-12
-    assert relative_difference(chain.arrays.origin[0], np.array([0, 0, system.chain.base])) < 1e-12
+    assert np.abs(chain.data.position[:, :2]).max() < 1e-12
+    assert relative_difference(chain.data.position[0], np.array([0, 0, system.chain.base])) < 1e-12

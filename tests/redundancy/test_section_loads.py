@@ -35,7 +35,7 @@ def recorded(
     chain: CompiledChain, height: Array, time: float, q: Array, v: Array, a: Array
 ) -> Array:
     """(m, 6) section loads of the compiled code."""
-    record = chain.record(chain.sections(height), chain.rows(np.array([time]))[0], q, v, a)
+    record = chain.record(chain.sections(height), chain.time_inputs(np.array([time]))[0], q, v, a)
     return record.section_load[0]
 
 

@@ -198,7 +198,7 @@ def test_a_term_of_motion_left_out_is_seen(
 
 
 def compiled_residual(chain: CompiledChain, state: State) -> Array:
-    row = chain.rows(np.array([TIME]))[0]
+    row = chain.time_inputs(np.array([TIME]))[0]
     return chain.residual(row, state.q, state.v, state.a)
 
 
@@ -243,7 +243,7 @@ def inverse_error(
 ) -> float:
     """Largest entry of A X - 1 with the compiled inverse X and the dense A, in a state of rest."""
     rest, unit = np.zeros_like(q), np.eye(len(q))
-    chain.factorise(chain.rows(np.array([TIME]))[0], q, rest, rest, *factors)
+    chain.factorise(chain.time_inputs(np.array([TIME]))[0], q, rest, rest, *factors)
     inverse = np.array([chain.correction(column) for column in unit]).T
     equations, (by_v, by_a) = chain.equations(), dense
     stiffness, damping = equations.tangents(TIME, q, rest)
@@ -293,7 +293,7 @@ def test_unstable_directions_are_negative_eigenvalues(in_waves: ow.System) -> No
     for factor in (1e-3, 1.0):
         system = replace(in_waves, joint_stiffness=factor * in_waves.joint_stiffness)
         chain = CompiledChain(system, [force], ramp_time=np.inf)
-        chain.factorise(chain.rows(np.zeros(1))[0], state.q, rest, rest, 0.0, 0.0)
+        chain.factorise(chain.time_inputs(np.zeros(1))[0], state.q, rest, rest, 0.0, 0.0)
         stiffness, _ = chain.equations().tangents(0.0, state.q, rest)
         expected = np.linalg.eigvalsh((stiffness + stiffness.T) / 2)
         assert chain.unstable_directions() == np.sum(expected <= 0)

@@ -146,7 +146,7 @@ def test_failed_attempts_leave_no_trace(tower: ow.System) -> None:
     method = GeneralizedAlpha(FixedStep(OUTPUT))
     state = method.begin(chain, ow.static(tower, loads=loads(tower)).q, OUTPUT)
     for i, count in enumerate(counts.tolist(), 1):
-        state, records = method.cross(
+        state, records = method.advance(
             chain, sections, state._replace(steps=count), np.array([i * OUTPUT])
         )
         assert np.array_equal(records["displacement"][0, -1], data["displacement"][i, -1])

@@ -61,10 +61,10 @@ def test_free_decay(undamped: ow.Turbine, oc6: ow.Turbine) -> None:
         FixedStep(period / steps), 1.0, relative_tolerance=1e-12, increment_tolerance=1e-12
     )
     chain = CompiledChain(system)
-    vectors = start(chain, chain.rows(np.zeros(1))[0], state.q, velocity)
+    vectors = start(chain, chain.time_inputs(np.zeros(1))[0], state.q, velocity)
     begin = method.begin(chain, state.q, period)._replace(vectors=vectors)
     times = period * np.arange(1, count + 1)
-    end, _ = method.cross(chain, chain.sections(system.chain.boundary), begin, times)
+    end, _ = method.advance(chain, chain.sections(system.chain.boundary), begin, times)
     mass = system.equations().mass(state.q)
     first, last = (float(shape @ mass @ v) for v in (velocity, end.vectors[1]))
     # The period of the method is longer by (omega dt)^2 / 12, a thousandth, in phase alone.

@@ -15,6 +15,8 @@ from offwind_pin.cases.case import Case, ModalAnalysis, load_case
 from offwind_pin.cases.run import run_case
 from offwind_pin.cases.settling import settle
 from offwind_pin.cases.shipped import shipped_cases
+from offwind_pin.results.reading import open_case
+from offwind_pin.results.tree import required
 
 ALWAYS = {"case", "wall_s", "simulated_s", "realtime_factor", "status"}
 
@@ -48,8 +50,10 @@ def test_lc12_increase_over_clamped(tmp_path: Path) -> None:
     assert (tmp_path / "report.html").stat().st_size > 10_000
     with xr.open_dataset(tmp_path / "results.nc") as data:
         top = float(data["displacement"].sel(direction="x")[-1])
-        settling = data["settling_tower_top_displacement"].sel(direction="x").to_numpy()
-        off = data["settling_difference"].to_numpy()
+    with open_case(tmp_path) as tree:
+        data = required(tree, "settling")
+        settling = data["tower_top_displacement"].sel(direction="x").to_numpy()
+        off = data["difference"].to_numpy()
     assert settling[0] == 0
     assert settling[-1] == pytest.approx(top, abs=1e-9)
     assert off[0] > 0.2
@@ -92,11 +96,12 @@ def test_lc23_frequencies_and_peak(tmp_path: Path) -> None:
     assert second["damping_ratio"] == pytest.approx(modes["FA2"]["damping_ratio"], rel=0.2)
     least = 1 / np.sqrt(2 * np.pi * 0.0063 * 0.2426 * 2000.0)
     assert first["damping_scatter"] == pytest.approx(least * first["damping_ratio"], rel=0.2)
-    with xr.open_dataset(tmp_path / "results.nc") as data:
-        assert data["identified_shape"].shape == (2, 13)
-        assert data["node_height"].to_numpy()[[0, -1]] == pytest.approx([-30.0, 115.63])
+    with open_case(tmp_path) as tree:
+        data = required(tree, "identified_modes")
+        assert data["shape"].shape == (2, 13)
+        assert data["height"].to_numpy()[[0, -1]] == pytest.approx([-30.0, 115.63])
         # Negative control: the other mode's shape does not pass for it.
-        shape = data["identified_shape"].to_numpy()
+        shape = data["shape"].to_numpy()
         assert ow.modal_assurance(shape[0], shape[1])[0, 0] < 0.5
     assert 'id="identified"' in (tmp_path / "report.html").read_text()
 
@@ -186,5 +191,5 @@ def test_a_structure_that_does_not_settle_is_told(
     """Clamped, dry and without damping it swings on."""
     system = ow.build(undamped, "clamped", elements=6)
     settling = settle(system, ow.static(system), 20.0)
-    assert settling.difference[-1] > 1e-3
+    assert float(settling["difference"][-1]) > 1e-3
     assert "give it damping" in caplog.text

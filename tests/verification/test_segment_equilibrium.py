@@ -2,6 +2,7 @@
 
 import itertools
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -13,7 +14,7 @@ import offwind_pin as ow
 from offwind_pin.analysis.integrators import GeneralizedAlpha
 from offwind_pin.analysis.static import load_scale
 from offwind_pin.dynamics.compiled.chain import CompiledChain
-from offwind_pin.dynamics.compiled.recorder_arrays import Cuts, Segments
+from offwind_pin.dynamics.compiled.recorder import Cuts, Segments
 from offwind_pin.loads.tower_top.load_history import TowerTopLoad
 from offwind_pin.solvers.steps import FixedStep
 from offwind_pin.structure.section import lump
@@ -87,7 +88,7 @@ def test_a_load_left_out_is_seen(
         names = np.repeat([load.name for load in chain.loads], [len(x.height) for x in chain.loads])
         kept = names[parts.point] != lost
         first = np.cumsum([0, *kept])[parts.first_point]
-        return cuts, parts._replace(point=parts.point[kept], first_point=first)
+        return cuts, replace(parts, point=parts.point[kept], first_point=first)
 
     monkeypatch.setattr(CompiledChain, "sections", without)
     wrong = imbalance(run(coarse)) > 1e3 * TOLERANCE
@@ -103,7 +104,7 @@ def test_a_wrong_mass_is_seen(coarse: ow.System, monkeypatch: pytest.MonkeyPatch
         chain: CompiledChain, height: Array, segments: Sequence[tuple[float, float]] = ()
     ) -> tuple[Cuts, Segments]:
         cuts, parts = sections(chain, height, segments)
-        return cuts, parts._replace(piece=parts.piece * [1.001, 1, 1, 1])
+        return cuts, replace(parts, piece=parts.piece * [1.001, 1, 1, 1])
 
     monkeypatch.setattr(CompiledChain, "sections", heavier)
     assert np.all(imbalance(run(coarse)) > 1e3 * TOLERANCE)
@@ -216,7 +217,7 @@ def test_moments_at_joints_are_what_springs_and_dampers_carry(coarse: ow.System)
     scale = load_scale(coarse)
     method = GeneralizedAlpha(FixedStep(0.05))
     state = method.begin(chain, ow.static(coarse).q, 0.05)
-    state, records = method.cross(chain, sections, state, np.arange(1, 41) * 0.05)
+    state, records = method.advance(chain, sections, state, np.arange(1, 41) * 0.05)
     q, v = state.vectors[:2]
     jacobian = coarse.equations().chain_motion(q, v).jacobian
     axes = jacobian[3:, coarse.chain.roots :].reshape(3, -1, 3)

@@ -137,7 +137,7 @@ def test_forgotten_slips_are_seen(
     honest = swung(system, 0.02)
     monkeypatch.setattr(transient, "_BLOCK_SECONDS", 1.0)
     forgetting = property(
-        lambda self: self.arrays.memory.copy(), lambda self, _: self.arrays.memory.fill(0)
+        lambda self: self.state.memory.copy(), lambda self, _: self.state.memory.fill(0)
     )
     monkeypatch.setattr(CompiledChain, "memory", forgetting)
     forgetful = swung(system, 0.02)

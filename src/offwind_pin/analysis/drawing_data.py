@@ -1,29 +1,43 @@
-"""What results carry so that a moving picture can be made of them alone."""
+"""What results carry so that figures, pages and reports can be made from them alone."""
 
 from __future__ import annotations
 
 from typing import Any
 
 import numpy as np
+import xarray as xr
 
+from offwind_pin.analysis.foundation.study.state import soil_springs
+from offwind_pin.analysis.modal import ModalResult
+from offwind_pin.analysis.static import StaticResult
 from offwind_pin.base.definition import Array
 from offwind_pin.dynamics.system import System
+from offwind_pin.loads.sea.current import mean_velocity
+from offwind_pin.loads.sea.sea import StillWater
 from offwind_pin.loads.sea.waves.surface import SurfaceWaves
-from offwind_pin.structure.section import frusta
+from offwind_pin.loads.soil.springs.elastic import SoilSprings
+from offwind_pin.structure.section import frusta, outer_diameter
 
 Constants = dict[str, tuple[str, Array, dict[str, str]]]
 
+_SHOWN_DEPTHS = (1 / 15, 2 / 15, 1 / 4, 1 / 2, 3 / 4)
+"""Depths over the embedded length at which a report shows p-y curves."""
+_UNUSED_END = 0.05
+"""m, end of the shown curves where nothing is known of the displacements reached."""
+_FULL_END = 0.1
+"""End of the stored curves over the diameter of the pile."""
 
-def scenery(system: System) -> Constants:
+
+def drawing_data(system: System) -> Constants:
     """The outline of the wall, and the waves as components if there are any.
 
-    Of a sea with more than 4000 components the fewest are kept that hold 99.9 % of its variance.
+    Of a sea with more than 4000 components the fewest are kept that contain 99.9 % of its variance.
     """
     return outline(system) | _waves(system)
 
 
-def told(system: System) -> dict[str, Any]:
-    """Attributes: mudline, rotor-nacelle assembly as defined, and the sea in words."""
+def drawing_attributes(system: System) -> dict[str, Any]:
+    """Mudline, rotor-nacelle assembly as defined, and the sea in words."""
     sea = system.sea
     water = {} if sea is None else {"water_level_m": sea.water_level, "waves": sea.in_words}
     return {
@@ -31,6 +45,29 @@ def told(system: System) -> dict[str, Any]:
         "rotor_nacelle": system.turbine.rna.model_dump_json(),
         **water,
     }
+
+
+def system_attributes(system: System) -> dict[str, Any]:
+    """Provenance of a static state or of natural modes."""
+    return {
+        "turbine": system.turbine.name,
+        "definition_sha256": system.turbine.content_hash,
+        "foundation": system.foundation.name,
+        "sea": repr(system.sea) if system.sea else "dry",
+        "surrogates": system.foundation.surrogate or "none",
+        "elements": system.chain.elements,
+    }
+
+
+def static_dataset(system: System, state: StaticResult) -> xr.Dataset:
+    """A static state with its provenance."""
+    return state.to_dataset().assign_attrs(system_attributes(system))
+
+
+def modes_dataset(system: System, result: ModalResult) -> xr.Dataset:
+    """Natural modes with their provenance and the data that a picture of them needs."""
+    attributes = system_attributes(system) | drawing_attributes(system)
+    return result.to_dataset().assign(outline(system)).assign_attrs(attributes)
 
 
 def outline(system: System) -> Constants:
@@ -48,8 +85,172 @@ def outline(system: System) -> Constants:
     }
 
 
+def structure_dataset(system: System) -> xr.Dataset:
+    """Dimensions, masses and foundation of a system, for its drawing and its table of facts."""
+    chain, turbine = system.chain, system.turbine
+    boundary = chain.boundary
+    member, height, diameter = _stations(system)
+    variables = {
+        "boundary_height": ("boundary", boundary, "height of the element boundary", "m"),
+        "boundary_diameter": (
+            "boundary",
+            outer_diameter(turbine, boundary),
+            "outer diameter at the element boundary",
+            "m",
+        ),
+        "station_member": ("station", member, "member that the station belongs to", None),
+        "station_height": ("station", height, "height of the station", "m"),
+        "station_diameter": ("station", diameter, "outer diameter at the station", "m"),
+        "rotor_nacelle_center_of_mass": (
+            "direction",
+            chain.rna.center_of_mass,
+            "centre of mass of the rotor-nacelle assembly, from the yaw bearing",
+            "m",
+        ),
+        "rotor_nacelle_mass": ((), chain.rna.mass, "mass of the rotor-nacelle assembly", "kg"),
+        "support_structure_mass": (
+            (),
+            sum(body.mass for body in chain.body),
+            "mass of tower and monopile from the base upwards",
+            "kg",
+        ),
+    }
+    soil = soil_springs(system)
+    if soil is not None:
+        variables["spring_height"] = ("spring", soil.height, "height of the soil spring", "m")
+    dampers = turbine.tuned_mass_dampers
+    if dampers:
+        frequency = [np.sqrt(mass.stiffness / mass.mass) / (2 * np.pi) for mass in dampers]
+        variables |= {
+            "damper_mass": ("damper", [mass.mass for mass in dampers], "sliding mass", "kg"),
+            "damper_height": ("damper", [mass.z for mass in dampers], "height", "m"),
+            "damper_frequency": ("damper", frequency, "natural frequency, locked carrier", "Hz"),
+            "damper_direction": (
+                "damper",
+                [mass.direction for mass in dampers],
+                "direction of sliding",
+                None,
+            ),
+        }
+    waters = system.waters
+    data = xr.Dataset(
+        {
+            name: (dims, values, {"long_name": text} | ({} if unit is None else {"units": unit}))
+            for name, (dims, values, text, unit) in variables.items()
+        },
+        {"direction": ("direction", ["x", "y", "z"], {"long_name": "axis of the inertial frame"})},
+        {
+            **system_attributes(system),
+            **drawing_attributes(system),
+            "surrogate": system.foundation.surrogate or "",
+            "base_m": chain.base,
+            "yaw_bearing_m": chain.top,
+            "water_depth_m": turbine.site.water_depth,
+            "degrees_of_freedom": system.nv,
+            "root": "fixed" if system.foundation.root is None else "flexible",
+            "sea_in_words": sea_in_words(system),
+            "surface": "calm" if waters is None or waters.surface.waves is None else "waves",
+        },
+    )
+    if dampers:
+        names = [mass.name for mass in dampers]
+        data = data.assign_coords(damper=("damper", names, {"long_name": "tuned mass damper"}))
+    return data
+
+
+def _stations(system: System) -> tuple[list[str], Array, Array]:
+    """Member, height and outer diameter of all stations, from the base of the chain upwards."""
+    base, turbine = system.chain.base, system.turbine
+    rows: list[tuple[str, float, float]] = []
+    for member in turbine.members:
+        above = [(member.name, s.z, s.diameter) for s in member.stations if s.z >= base]
+        if above and above[0][1] > base > member.bottom:
+            cut = float(outer_diameter(turbine, np.array([base]))[0])
+            above.insert(0, (member.name, base, cut))
+        rows += above
+    name, height, diameter = zip(*rows, strict=True)
+    return list(name), np.array(height), np.array(diameter)
+
+
+def sea_in_words(system: System) -> str:
+    """Waves, mean level, stretching and current in words."""
+    sea = system.sea
+    if sea is None:
+        return "none (dry)"
+    words = [sea.in_words]
+    if sea.water_level:
+        words.append(f"mean level at z = {sea.water_level:g} m")
+    if sea.stretching != "none" and not isinstance(sea, StillWater):
+        words.append(f"stretched to the surface ({sea.stretching})")
+    if sea.current is not None:
+        x, y, _ = mean_velocity(sea.current, sea.water_level - system.turbine.site.mudline)
+        speed, towards = float(np.hypot(x, y)), float(np.degrees(np.arctan2(y, x)))
+        words.append(f"depth-averaged current of {speed:.3g} m/s towards {towards:.3g} degrees")
+    return ", ".join(words)
+
+
+def damping_dataset(system: System) -> xr.Dataset | None:
+    """Structural damping requested and achieved, or None for a turbine without."""
+    calibration = system.turbine.structural_damping
+    if calibration is None:
+        return None
+    requested, achieved = calibration.ratios, system.damping_ratios
+    labels = list(dict.fromkeys([*requested, *achieved]))
+    about = {"units": "1"}
+    return xr.Dataset(
+        {
+            name: (
+                "mode",
+                [ratios.get(label, np.nan) for label in labels],
+                {"long_name": f"damping ratio {name}, of critical; NaN for none"} | about,
+            )
+            for name, ratios in (("requested", requested), ("achieved", achieved))
+        },
+        {"mode": ("mode", labels, {"long_name": "label of the mode"})},
+        {
+            "foundation": calibration.foundation,
+            "water": "still water" if calibration.still_water else "dry",
+        },
+    )
+
+
+def soil_dataset(soil: SoilSprings, mudline: float, reached: Array | None = None) -> xr.Dataset:
+    """Lateral p-y curves at all nodes of a pile, and the displacements reached.
+
+    The curves have 201 points up to what a report shows, and further ones up to a tenth of the
+    diameter of the pile.
+
+    Parameters
+    ----------
+    mudline : float, m
+    reached : (n,) array, m; largest lateral displacement of each node
+    """
+    depth = mudline - soil.height
+    shown = np.unique(np.searchsorted(depth, np.array(_SHOWN_DEPTHS) * depth[-1] - 1e-9))
+    end = _UNUSED_END if reached is None else max(1.05 * float(np.max(reached[shown])), 1e-4)
+    y = np.linspace(0, end, 201)
+    if end < _FULL_END:
+        y = np.concatenate([y, np.geomspace(end, _FULL_END, 40)[1:]])
+    resistance = np.array([soil.curves.resistance(np.full(len(depth), value)) for value in y])
+    variables = {
+        "height": ("spring", soil.height, "undeformed height of the node", "m"),
+        "depth": ("spring", depth, "depth of the node below the mudline", "m"),
+        "resistance": (("spring", "y"), resistance.T, "lateral soil resistance", "N/m"),
+    }
+    if reached is not None:
+        variables["reached"] = ("spring", reached, "largest lateral displacement reached", "m")
+    return xr.Dataset(
+        {
+            name: (dims, values, {"long_name": text, "units": unit})
+            for name, (dims, values, text, unit) in variables.items()
+        },
+        {"y": ("y", y, {"long_name": "lateral displacement", "units": "m"})},
+        {"shown_nodes": shown, "shown_end_m": end},
+    )
+
+
 def _waves(system: System) -> Constants:
-    """eta = sum a cos(2 pi f t + phase - kx x - ky y) above the water level, grown fully."""
+    """eta = sum a cos(2 pi f t + phase - kx x - ky y) above the water level, fully developed."""
     waves = None if system.waters is None else system.waters.surface.waves
     surface = None if waves is None else SurfaceWaves.of(waves)
     if surface is None:

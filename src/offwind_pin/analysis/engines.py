@@ -85,7 +85,7 @@ def pencil(system: System, about: StaticResult, engine: Engine) -> DensePencil:
     from offwind_pin.dynamics.reference.dense_pencil import DensePencil
 
     check_engine(engine)
-    return DensePencil(system.equations(about.loads, math.inf, about.memory), about.q)
+    return DensePencil(system.equations(about.acting_loads(), math.inf, about.memory), about.q)
 
 
 def moving_chain(

@@ -14,7 +14,7 @@ from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError
 from offwind_pin.definitions.engine import Engine
 from offwind_pin.dynamics.compiled.chain import CompiledChain
-from offwind_pin.dynamics.compiled.recorder_arrays import Cuts, RecorderArrays, Segments
+from offwind_pin.dynamics.compiled.recorder import Cuts, Recorder, Segments
 from offwind_pin.solvers.generalized_alpha import (
     CONVERGED,
     REASONS,
@@ -45,10 +45,10 @@ class StepFailed(Exception):
     """A step that did not converge: why, when, and its last finite residual (nv,).
 
     number : of the step, counted in the steps that the policy begins with
-    crossed : state and records of the intervals before it in the same call, or None
+    advanced : state and records of the intervals before it in the same call, or None
     """
 
-    crossed: tuple[MotionState, Records] | None = None
+    advanced: tuple[MotionState, Records] | None = None
 
     def __init__(self, reason: str, time: float, residual: Array, number: int) -> None:
         self.reason = reason
@@ -62,7 +62,7 @@ Sections = tuple[Cuts, Segments]
 """Cuts at which motion and section loads are recorded, and segments whose balance is."""
 
 Records = dict[str, Array]
-"""Channels by name, over records first; see :class:`RecorderArrays`."""
+"""Channels by name, over records first; see :class:`Recorder`."""
 
 
 class Integrator(Protocol):
@@ -79,7 +79,7 @@ class Integrator(Protocol):
         What soil and foundation keep of their past is the chain's.
         """
 
-    def cross(
+    def advance(
         self, chain: CompiledChain, sections: Sections, state: MotionState, times: Array
     ) -> tuple[MotionState, Records]:
         """State at the last of the instants, and records at each of them.
@@ -93,7 +93,7 @@ class Integrator(Protocol):
         """Plain data for the results."""
 
 
-class _Crossed(NamedTuple):
+class _Advanced(NamedTuple):
     """State after some intervals, records at their ends, and the largest local error of a step."""
 
     state: MotionState
@@ -128,25 +128,25 @@ class GeneralizedAlpha:
     def begin(self, chain: CompiledChain, q: Array, interval: float) -> MotionState:
         return _at_start(chain, chain.start(q), self.policy.first(interval))
 
-    def cross(
+    def advance(
         self, chain: CompiledChain, sections: Sections, state: MotionState, times: Array
     ) -> tuple[MotionState, Records]:
         interval = (times[-1] - state.time) / len(times)
         if isinstance(self.policy, FixedStep):
             attempt = self._try(chain, sections, state, times)
-            if isinstance(attempt, _Crossed):
+            if isinstance(attempt, _Advanced):
                 return attempt.state, attempt.records
         pieces: list[Records] = []
         for time in times:
             try:
-                state, records = self._cross_interval(chain, sections, state, time, interval)
+                state, records = self._advance_interval(chain, sections, state, time, interval)
             except StepFailed as failure:
-                failure.crossed = (state, _joined(pieces)) if pieces else None
+                failure.advanced = (state, _joined(pieces)) if pieces else None
                 raise
             pieces.append(records)
         return state, _joined(pieces)
 
-    def _cross_interval(
+    def _advance_interval(
         self,
         chain: CompiledChain,
         sections: Sections,
@@ -157,9 +157,9 @@ class GeneralizedAlpha:
         """One interval, done again with more steps until the policy is content."""
         while True:
             attempt = self._try(chain, sections, state, np.array([time]))
-            error = attempt.error if isinstance(attempt, _Crossed) else np.inf
+            error = attempt.error if isinstance(attempt, _Advanced) else np.inf
             steps = self.policy.next(state.steps, error, interval)
-            if isinstance(attempt, _Crossed):
+            if isinstance(attempt, _Advanced):
                 if steps <= state.steps:
                     return attempt.state._replace(steps=steps), attempt.records
                 attempt = _too_inexact(attempt, interval / state.steps)
@@ -171,7 +171,7 @@ class GeneralizedAlpha:
 
     def _try(
         self, chain: CompiledChain, sections: Sections, state: MotionState, times: Array
-    ) -> _Crossed | StepFailed:
+    ) -> _Advanced | StepFailed:
         """All intervals up to the instants, each with the state's number of steps."""
         count = state.steps * len(times)
         interval = (times[-1] - state.time) / len(times)
@@ -198,7 +198,7 @@ class GeneralizedAlpha:
             return StepFailed(REASONS[reason], float(instants[done]), last, number)
         sums = (recorder.energy, recorder.power)
         after = MotionState(float(times[-1]), vectors, chain.memory, *sums, state.steps)
-        return _Crossed(after, _channels(recorder, step), float(error))
+        return _Advanced(after, _channels(recorder, step), float(error))
 
     def _number(self, time: float, interval: float) -> int:
         """Number of the step that ends at a time, in the steps that the policy begins with."""
@@ -247,7 +247,7 @@ class SciPyIVP:
         a = chain.equations().acceleration(0.0, q, rest)
         return _at_start(chain, np.array([q, rest, a, a, a, a]), 1)
 
-    def cross(
+    def advance(
         self, chain: CompiledChain, sections: Sections, state: MotionState, times: Array
     ) -> tuple[MotionState, Records]:
         from scipy.integrate import solve_ivp
@@ -284,7 +284,9 @@ class SciPyIVP:
         for time, y in zip(times, solution.y.T, strict=True):
             q, v = y[:n].copy(), y[n:].copy()
             a = equations.acceleration(time, q, v)
-            chain.note(recorder, chain.rows(np.array([time]))[0], q, v, a, load_scale(chain.system))
+            chain.note(
+                recorder, chain.time_inputs(np.array([time]))[0], q, v, a, load_scale(chain.system)
+            )
             vectors = np.array([q, v, a, a, a, a])
         sums = (recorder.energy, recorder.power)
         after = MotionState(float(times[-1]), vectors, state.memory, *sums, 1)
@@ -304,7 +306,7 @@ def first_record(
     """Record of the start, and the state with the powers there."""
     recorder = _resumed_recorder(chain, sections, state, 1, 1)
     q, v, a = state.vectors[:3]
-    chain.note(recorder, chain.rows(np.zeros(1))[0], q, v, a, load_scale(chain.system))
+    chain.note(recorder, chain.time_inputs(np.zeros(1))[0], q, v, a, load_scale(chain.system))
     sums = np.zeros_like(state.energy)
     return state._replace(energy=sums, power=recorder.power), _channels(recorder, np.nan)
 
@@ -320,7 +322,7 @@ def _at_start(chain: CompiledChain, vectors: Array, steps: int) -> MotionState:
 
 def _resumed_recorder(
     chain: CompiledChain, sections: Sections, state: MotionState, every: int, records: int
-) -> RecorderArrays:
+) -> Recorder:
     """A recorder whose sums go on from a state; the first record is due after ``every`` steps."""
     recorder = chain.recorder(sections, every, records)
     recorder.clock[0] = state.time
@@ -328,13 +330,13 @@ def _resumed_recorder(
     return recorder
 
 
-def _too_inexact(attempt: _Crossed, step: float) -> StepFailed:
+def _too_inexact(attempt: _Advanced, step: float) -> StepFailed:
     reason = f"the local error is {attempt.error:.3g} still with steps of {step:.3g} s"
     nothing = np.zeros(attempt.state.vectors.shape[1])
     return StepFailed(reason, attempt.state.time, nothing, round(attempt.state.time / step))
 
 
-def _channels(recorder: RecorderArrays, step: float) -> Records:
+def _channels(recorder: Recorder, step: float) -> Records:
     """What was recorded, all with steps of one size in s."""
     names = (
         "time",
@@ -343,7 +345,7 @@ def _channels(recorder: RecorderArrays, step: float) -> Records:
         "section_load",
         "imbalance",
         "soil_force",
-        "slip",
+        "stroke",
         "stored",
         "dissipated",
         "worked",
@@ -351,4 +353,5 @@ def _channels(recorder: RecorderArrays, step: float) -> Records:
         "residual",
     )
     channels = {name: getattr(recorder, name) for name in names}
+    channels["iterations"] = recorder.iterations.astype(np.int32)
     return channels | {"step": np.full(len(recorder.time), step)}

@@ -17,6 +17,9 @@ from offwind_pin.definitions.engine import Engine
 from offwind_pin.dynamics.system import System
 
 if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+
     from offwind_pin.dynamics.reference.dense_pencil import DensePencil
 
 _FAMILY_OF_JOINT = {"px": "FA", "ry": "FA", "py": "SS", "rx": "SS", "rz": "T", "pz": "V"}
@@ -96,6 +99,55 @@ class ModalResult:
                 "mode", label, ", ".join(self.label), "Choose one of them, or compute more modes."
             )
         return self.label.index(label)
+
+    def to_dataset(self) -> xr.Dataset:
+        """The modes as a labelled dataset."""
+        from offwind_pin.results.states import modal_dataset
+
+        return modal_dataset(
+            self.height,
+            self.label,
+            frequency_hz=self.frequency_hz,
+            damping_ratio=self.damping_ratio,
+            shape=self.shape,
+            mass_normalised=self.mass_normalised,
+            participation=self.participation,
+            families=list(FAMILIES),
+            damper_share=self.damper_share,
+            vector=self.vector,
+            peak_height_ratio=self.shape_peak_height_ratio,
+            engine=self.engine,
+        )
+
+    @staticmethod
+    def from_dataset(data: xr.Dataset) -> ModalResult:
+        """Modes read back from :meth:`to_dataset`."""
+        return ModalResult(
+            frequency_hz=data["frequency"].to_numpy(),
+            damping_ratio=data["damping_ratio"].to_numpy(),
+            label=[str(label) for label in data["mode"].to_numpy()],
+            participation=data["participation"].to_numpy(),
+            damper_share=data["damper_share"].to_numpy(),
+            height=data["height"].to_numpy(),
+            shape=data["shape"].to_numpy(),
+            mass_normalised=data["mass_normalised"].to_numpy(),
+            vector=data["joint_shape"].to_numpy(),
+            shape_peak_height_ratio=data["peak_height_ratio"].to_numpy(),
+            engine=data.attrs["engine"],
+        )
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """Table with a row for each mode: frequency, damping, peak and participations."""
+        import pandas as pd
+
+        columns = {
+            "frequency_hz": self.frequency_hz,
+            "damping_ratio": self.damping_ratio,
+            "shape_peak_height_ratio": self.shape_peak_height_ratio,
+            **{f"share_{name}": self.participation[:, i] for i, name in enumerate(FAMILIES)},
+            "share_dampers": self.damper_share,
+        }
+        return pd.DataFrame(columns, index=pd.Index(self.label, name="mode"))
 
     def direction(self, label: str) -> str:
         """FA, SS, T or V: how the axis moves in a mode, one of tuned mass dampers as well."""

@@ -12,7 +12,7 @@ from typing import Any, Literal, get_args
 import numpy as np
 import xarray as xr
 
-from offwind_pin.analysis.drawing_data import scenery, told
+from offwind_pin.analysis.drawing_data import drawing_attributes, drawing_data
 from offwind_pin.analysis.engines import engine_of, moving_chain
 from offwind_pin.analysis.integrators import (
     GeneralizedAlpha,
@@ -166,7 +166,7 @@ def simulate(
         [load.name for load in chain.loads],
         chain.stores,
         attributes,
-        scenery(system),
+        drawing_data(system),
         _ground_levels(system, ground_motion),
         {mass.name: mass.travel for mass in system.chain.sliding_mass},
         chain.soil.height,
@@ -182,15 +182,15 @@ def simulate(
         while done < outputs:
             until = min(done + per_block - done % per_block, outputs)
             times = interval * np.arange(done + 1, until + 1, dtype=float)
-            state, records = method.cross(chain, sections, state, times)
+            state, records = method.advance(chain, sections, state, times)
             store.append(_block(chain, state, records))
             _caution_of_travel(system, records, cautioned)
             done = until
             if progress is not None:
                 progress(state.time)
     except StepFailed as failure:
-        if failure.crossed is not None:
-            store.append(_block(chain, *failure.crossed))
+        if failure.advanced is not None:
+            store.append(_block(chain, *failure.advanced))
         joint, size = chain.worst_joint(failure.residual)
         raise SolverError(
             f"the time step did not converge: {failure.reason} (a smaller dt may help)",
@@ -213,7 +213,7 @@ def simulate(
 def _caution_of_travel(system: System, records: Records, cautioned: set[str]) -> None:
     """Say once of each tuned mass damper that it goes further than it has room for."""
     for d, mass in enumerate(system.chain.sliding_mass):
-        way = np.linalg.norm(records["slip"][:, d], axis=1)
+        way = np.linalg.norm(records["stroke"][:, d], axis=1)
         if mass.name not in cautioned and np.any(way > mass.travel):
             cautioned.add(mass.name)
             first = int(np.argmax(way > mass.travel))
@@ -330,10 +330,10 @@ def _at_yaw_bearing(
 def _fingerprint(chain: CompiledChain, sections: Sections, duration: float) -> str:
     """Hash of everything that determines the results besides the settings: loads and heights."""
     digest = hashlib.sha256()
-    numbers = chain.rows(np.linspace(0.0, duration, _SAMPLES))
+    time_inputs = chain.time_inputs(np.linspace(0.0, duration, _SAMPLES))
     digest.update(json.dumps(chain.system.foundation.describe()).encode())
-    arrays = [numbers, sections[0].height, sections[1].cut]
-    arrays += [chain.arrays.stiffness, chain.arrays.damping]
+    arrays = [time_inputs, sections[0].height, sections[1].cut]
+    arrays += [chain.model.stiffness, chain.model.damping]
     if chain.ground_motion is not None:
         motion = chain.ground_motion
         arrays += [motion.time, motion.corrected, motion.levels]
@@ -393,7 +393,7 @@ def _provenance(
         "sea": repr(system.sea) if system.sea else "dry",
         "wave_seed": -1 if system.sea is None else system.sea.wave_seed,
         **_told_of_waves(system),
-        **told(system),
+        **drawing_attributes(system),
         "tower_top_load_origin": "; ".join(history.origin for history in origins) or "none",
         "surrogates": " | ".join(text for text in surrogates if text) or "none",
         "elements": system.chain.elements,

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,6 +18,10 @@ from offwind_pin.dynamics.system import System
 from offwind_pin.loads.point_load import PointLoad
 from offwind_pin.loads.tower_top.load_history import constant_load
 from offwind_pin.solvers.newton import newton
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
 
 RELATIVE_TOLERANCE = 1e-10
 """Largest entry of the residual over :func:`load_scale`. Displacements of soil nodes are
@@ -36,7 +42,7 @@ class StaticResult:
     iterations : Newton steps
     residual : largest entry of the residual over the load scale
     memory : (k,) what soil and foundation keep of their past once this load has acted
-    loads : that act
+    loads : that act; None in a state read from a file that loads acted on, which files leave out
     engine : that evaluated the equations
     """
 
@@ -49,7 +55,7 @@ class StaticResult:
     residual: float
     mudline: float
     memory: Array = field(repr=False)
-    loads: tuple[PointLoad, ...] = field(repr=False)
+    loads: tuple[PointLoad, ...] | None = field(repr=False)
     engine: Engine = "compiled"
 
     def __repr__(self) -> str:
@@ -95,6 +101,68 @@ class StaticResult:
         """(6,) section load at the mudline in N and N m."""
         return self.section_load[self._mudline]
 
+    def to_dataset(self) -> xr.Dataset:
+        """The state as a labelled dataset over height."""
+        from offwind_pin.results.states import static_dataset
+
+        return static_dataset(
+            self.height,
+            displacement=self.displacement,
+            rotation=self.rotation,
+            section_load=self.section_load,
+            joint_displacement=self.q,
+            memory=self.memory,
+            iterations=self.iterations,
+            residual=self.residual,
+            mudline=self.mudline,
+            engine=self.engine,
+            loads=[load.name for load in self.acting_loads()],
+        )
+
+    @staticmethod
+    def from_dataset(data: xr.Dataset) -> StaticResult:
+        """A state read back from :meth:`to_dataset`; ``loads`` is None where some acted."""
+        load = [data[name].to_numpy() for name in ("section_force", "section_moment")]
+        return StaticResult(
+            q=data["joint_displacement"].to_numpy(),
+            height=data["height"].to_numpy(),
+            displacement=data["displacement"].to_numpy(),
+            rotation=data["rotation"].to_numpy(),
+            section_load=np.concatenate(load, axis=1),
+            iterations=int(data.attrs["iterations"]),
+            residual=float(data.attrs["residual"]),
+            mudline=float(data.attrs["mudline_m"]),
+            memory=data["memory"].to_numpy() if "memory" in data else np.zeros(0),
+            loads=None if json.loads(data.attrs["loads"]) else (),
+            engine=data.attrs["engine"],
+        )
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """Table over height in m: displacement (m), rotation (rad), section load (N, N m)."""
+        import pandas as pd
+
+        columns = {f"displacement_{a}": self.displacement[:, i] for i, a in enumerate("xyz")}
+        columns |= {f"rotation_{a}": self.rotation[:, i] for i, a in enumerate("xyz")}
+        names = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
+        columns |= {name: self.section_load[:, i] for i, name in enumerate(names)}
+        return pd.DataFrame(columns, index=pd.Index(self.height, name="height"))
+
+    def acting_loads(self) -> tuple[PointLoad, ...]:
+        """The loads that act.
+
+        Raises
+        ------
+        InputError : the state was read from a file, which does not contain them
+        """
+        if self.loads is None:
+            raise InputError(
+                "static state",
+                "one read from a file, without the loads that acted on it",
+                "a state found by static in this session",
+                "Solve the state again.",
+            )
+        return self.loads
+
     @property
     def _mudline(self) -> int:
         return int(np.argmin(np.abs(self.height - self.mudline)))
@@ -129,7 +197,7 @@ def static(
     if tower_top_load is not None:
         acting.append(constant_load(system.chain.top, tower_top_load))
     chain = resting_chain(system, acting, engine)
-    row = chain.rows(np.zeros(1))[0]
+    time_inputs = chain.time_inputs(np.zeros(1))[0]
     rest = np.zeros(system.nv)
     scale = load_scale(system)
     if after is not None:
@@ -139,11 +207,11 @@ def static(
         chain.memory = after.memory
 
     def correction(q: Array, residual: Array) -> Array:
-        chain.factorise(row, q, rest, rest, 0.0, 0.0)
+        chain.factorise(time_inputs, q, rest, rest, 0.0, 0.0)
         return chain.correction(residual)
 
     result = newton(
-        lambda q: chain.residual(row, q, rest, rest),
+        lambda q: chain.residual(time_inputs, q, rest, rest),
         correction,
         rest if after is None else after.q,
         scale=scale,
@@ -157,7 +225,7 @@ def static(
             joint=joint,
             residual=size,
         )
-    chain.factorise(row, result.x, rest, rest, 0.0, 0.0)
+    chain.factorise(time_inputs, result.x, rest, rest, 0.0, 0.0)
     if chain.unstable_directions():
         joint, size = chain.worst_joint(result.x)
         raise SolverError(
@@ -166,7 +234,7 @@ def static(
             joint=joint,
             residual=float(np.max(np.abs(result.residual))),
         )
-    state = chain.at_rest(row, result.x, system.chain.boundary)
+    state = chain.at_rest(time_inputs, result.x, system.chain.boundary)
     return StaticResult(
         q=result.x,
         height=system.chain.boundary,

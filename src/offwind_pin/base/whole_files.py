@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
+import shutil
 import uuid
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -26,6 +27,8 @@ _FULL_PRECISION = {
 
 _CHUNK = 256
 """Instants that a file holds, and a reader reads, at once."""
+_SMALL = 500
+"""Numbers; a compressed variable of fewer takes more room than an uncompressed one."""
 _CACHE_BYTES = 2**20
 """Memory for the chunks of each variable while a file is written; the default is 16 times that."""
 
@@ -55,7 +58,7 @@ def write_json(path: Path, data: dict[str, Any]) -> None:
 
 
 def write_netcdf(path: Path, data: xr.Dataset) -> None:
-    """Compressed NetCDF; channels over the whole height in single precision, the rest in double."""
+    """Compressed NetCDF; histories over the height in single precision, the rest in double."""
     append_netcdf(path, iter([data]))
 
 
@@ -78,6 +81,16 @@ def append_netcdf(path: Path, parts: Iterator[xr.Dataset]) -> None:
                         file[str(name)][begin : begin + part.sizes["time"]] = variable.values
 
 
+def add_groups(path: Path, groups: Mapping[str, xr.Dataset]) -> None:
+    """Add datasets as groups to an existing NetCDF file, which is replaced as a whole."""
+    with whole_file(path) as temporary:
+        shutil.copyfile(path, temporary)
+        for name, data in groups.items():
+            data.to_netcdf(
+                temporary, mode="a", group=name, engine="netcdf4", encoding=_encoding(data)
+            )
+
+
 def _encoding(data: xr.Dataset) -> dict[Any, dict[str, Any]]:
     encoding = {}
     for name, variable in data.variables.items():
@@ -89,8 +102,9 @@ def _encoding(data: xr.Dataset) -> dict[Any, dict[str, Any]]:
             # Left to itself the file has one chunk for each instant.
             how["chunksizes"] = [_CHUNK if d == "time" else data.sizes[d] for d in variable.dims]
         if name in data.data_vars:
-            how |= {"zlib": True, "complevel": 1}
-            if variable.ndim >= 3 and name not in _FULL_PRECISION:
+            if variable.size > _SMALL or "time" in variable.dims:
+                how |= {"zlib": True, "complevel": 1}
+            if "time" in variable.dims and variable.ndim >= 3 and name not in _FULL_PRECISION:
                 how["dtype"] = "float32"
         encoding[name] = how
     return encoding

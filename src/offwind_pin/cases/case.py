@@ -61,7 +61,7 @@ class StaticAnalysis(Definition):
     settle: Annotated[Positive, Field(ge=10, le=1e5)] | None = key("settle_s", default=None)
 
 
-class Identification(Definition):
+class OperationalModesSettings(Definition):
     """A record of accelerations under white noise, and how modes are taken out of it.
 
     duration : of the record; the damping ratio of a mode scatters by 1 / sqrt(2 pi zeta f T) of
@@ -75,7 +75,7 @@ class Identification(Definition):
     nodes: Annotated[int, Field(ge=3, le=60)] = 13
 
     @model_validator(mode="after")
-    def _holds_segments(self) -> Identification:
+    def _holds_segments(self) -> OperationalModesSettings:
         if self.segment > self.duration / 4:
             raise ValueError(
                 f"segment_s = {self.segment} is longer than a quarter of duration_s = "
@@ -94,7 +94,7 @@ class ModalAnalysis(Definition):
     kind: Literal["modes"]
     engine: Engine = "compiled"
     count: Annotated[int, Field(ge=1, le=50)] = 8
-    identify: Identification | None = None
+    identify: OperationalModesSettings | None = None
 
 
 class TransientAnalysis(Definition):

@@ -1,13 +1,13 @@
-"""Modes out of accelerations in a case: white noise shakes the structure, nodes are recorded.
+"""Operational modal analysis in a case: response to white noise, compared with the eigenanalysis.
 
-The way of Rahman et al. (MECC 2025) for LC 2.3: accelerations at 13 nodes from the seabed to the
-yaw bearing, frequency domain decomposition; here beside the modes of the eigenanalysis.
+The procedure of Rahman et al. (MECC 2025) for LC 2.3: accelerations at 13 nodes from the seabed to
+the yaw bearing, frequency domain decomposition.
 """
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -17,11 +17,11 @@ from offwind_pin.analysis.modal import ModalResult
 from offwind_pin.analysis.simulate import simulate
 from offwind_pin.base.definition import Array
 from offwind_pin.base.seeds import random_stream
-from offwind_pin.cases.case import Identification
+from offwind_pin.cases.case import OperationalModesSettings
 from offwind_pin.definitions.engine import Engine
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.tower_top.load_history import LoadHistory
-from offwind_pin.signal.modal_identification.identify import IdentifiedModes, operational_modes
+from offwind_pin.signal.modal_identification.identify import operational_modes
 from offwind_pin.signal.modal_identification.modal_assurance import modal_assurance
 
 Progress = Callable[[float, float], None]
@@ -39,15 +39,20 @@ LABELS = ("FA1", "FA2")
 def identify(
     system: System,
     modes: ModalResult,
-    asked: Identification,
+    asked: OperationalModesSettings,
     seed: int,
     progress: Progress | None = None,
-) -> IdentifiedModes:
-    """Shake a system, take its fore-aft modes out of the accelerations, and compare.
+) -> xr.Dataset:
+    """Excite a system by white noise, identify its fore-aft modes, and compare.
+
+    Returns
+    -------
+    Dataset : identified modes over the nodes, the computed ones (``computed_...``), and singular
+        values over frequency
 
     Raises
     ------
-    InputError : modes that were not computed, or a record too short for what is asked
+    InputError : modes that were not computed, or a record too short for the settings
     """
     height = np.linspace(system.turbine.site.mudline, system.chain.top, asked.nodes)
     rows = [modes.index(label) for label in LABELS]
@@ -62,40 +67,76 @@ def identify(
         near=modes.frequency_hz[rows].tolist(),
         names=[f"z {z:.4g} m" for z in height[moves]],
     )
-    everywhere = np.zeros((len(LABELS), asked.nodes))
-    everywhere[:, moves] = found.shape
-    found = replace(found, shape=everywhere)
+    identified = np.zeros((len(LABELS), asked.nodes))
+    identified[:, moves] = found.shape
     shape = np.array([np.interp(height, modes.height, modes.shape[row, :, 0]) for row in rows])
     shape /= np.max(np.abs(shape), axis=1, keepdims=True)
-    return IdentifiedModes(
-        label=LABELS,
-        height=height,
-        found=found,
-        frequency_hz=modes.frequency_hz[rows],
-        damping_ratio=modes.damping_ratio[rows],
-        shape=shape,
-        assurance=modal_assurance(found.shape, shape).diagonal().copy(),
-        peak_height_ratio=np.array([_peak(row) for row in found.shape]) / (asked.nodes - 1),
-        duration=asked.duration,
-        seed=seed,
+    peak = np.array([_peak(row) for row in identified]) / (asked.nodes - 1)
+    over: dict[str, tuple[Any, Array, str, str]] = {
+        "frequency": ("mode", found.frequency_hz, "identified natural frequency", "Hz"),
+        "damping_ratio": ("mode", found.damping_ratio, "identified damping ratio", "1"),
+        "damping_scatter": (
+            "mode",
+            found.damping_scatter,
+            "least standard deviation of a damping ratio from a record of this length",
+            "1",
+        ),
+        "shape": (("mode", "height"), identified, "identified fore-aft shape, unit peak", "1"),
+        "computed_frequency": ("mode", modes.frequency_hz[rows], "natural frequency", "Hz"),
+        "computed_damping_ratio": ("mode", modes.damping_ratio[rows], "damping ratio", "1"),
+        "computed_shape": (("mode", "height"), shape, "fore-aft mode shape, unit peak", "1"),
+        "assurance": (
+            "mode",
+            modal_assurance(identified, shape).diagonal().copy(),
+            "modal assurance of identified and computed shapes",
+            "1",
+        ),
+        "peak_height_ratio": (
+            "mode",
+            peak,
+            "height of the identified peak, mudline 0, yaw bearing 1",
+            "1",
+        ),
+        "singular_value": (
+            ("line", "number"),
+            found.singular_values,
+            "singular values of the cross-spectra of the accelerations",
+            "(m/s2)2/Hz",
+        ),
+    }
+    return xr.Dataset(
+        {
+            name: (dims, values, {"long_name": text, "units": unit})
+            for name, (dims, values, text, unit) in over.items()
+        },
+        {
+            "mode": ("mode", list(LABELS), {"long_name": "label of the mode"}),
+            "height": ("height", height, {"long_name": "height of the node", "units": "m"}),
+            "line": ("line", found.frequencies, {"long_name": "frequency", "units": "Hz"}),
+        },
+        {
+            "record_s": asked.duration,
+            "simulated_s": SETTLING + asked.duration,
+            "seed": seed,
+            "cautions": json.dumps(found.cautions),
+        },
     )
 
 
-def summarise_identified(result: IdentifiedModes) -> dict[str, Any]:
+def summarise_identified(data: xr.Dataset) -> dict[str, Any]:
     """Keys of the summary: a row for each mode, and single numbers for published ones to name."""
-    found = result.found
     rows = [
         {
-            "label": label,
-            "frequency_hz": float(found.frequency_hz[i]),
-            "eigenanalysis_frequency_hz": float(result.frequency_hz[i]),
-            "damping_ratio": float(found.damping_ratio[i]),
-            "damping_scatter": float(found.damping_scatter[i]),
-            "eigenanalysis_damping_ratio": float(result.damping_ratio[i]),
-            "modal_assurance": float(result.assurance[i]),
-            "shape_peak_height_ratio": float(result.peak_height_ratio[i]),
+            "label": str(label),
+            "frequency_hz": float(mode["frequency"]),
+            "eigenanalysis_frequency_hz": float(mode["computed_frequency"]),
+            "damping_ratio": float(mode["damping_ratio"]),
+            "damping_scatter": float(mode["damping_scatter"]),
+            "eigenanalysis_damping_ratio": float(mode["computed_damping_ratio"]),
+            "modal_assurance": float(mode["assurance"]),
+            "shape_peak_height_ratio": float(mode["peak_height_ratio"]),
         }
-        for i, label in enumerate(result.label)
+        for label, mode in ((label, data.sel(mode=label)) for label in data["mode"].to_numpy())
     ]
     single = {f"identified_{row['label']}_hz": row["frequency_hz"] for row in rows}
     single |= {
@@ -104,31 +145,9 @@ def summarise_identified(result: IdentifiedModes) -> dict[str, Any]:
     }
     return {
         "identified_modes": rows,
-        "identification_cautions": list(found.cautions),
-        "simulated_s": SETTLING + result.duration,
-        "seed": result.seed,
+        "identification_cautions": json.loads(data.attrs["cautions"]),
+        "seed": int(data.attrs["seed"]),
         **single,
-    }
-
-
-def identified_variables(result: IdentifiedModes) -> dict[str, xr.DataArray]:
-    """Identified shapes and singular values for the dataset of the modes."""
-    found = result.found
-    nodes = ("node_height", result.height, {"units": "m"})
-    lines = ("fdd_frequency", found.frequencies, {"units": "Hz"})
-    return {
-        "identified_shape": xr.DataArray(
-            found.shape,
-            dims=("identified_mode", "node_height"),
-            coords={"identified_mode": list(result.label), "node_height": nodes},
-            attrs={"long_name": "fore-aft shape out of accelerations, unit peak", "units": "1"},
-        ),
-        "singular_value": xr.DataArray(
-            found.singular_values,
-            dims=("fdd_frequency", "singular_value_number"),
-            coords={"fdd_frequency": lines},
-            attrs={"long_name": "of the accelerations' cross-spectra", "units": "(m/s2)2/Hz"},
-        ),
     }
 
 

@@ -1,184 +1,182 @@
-"""Running a load case: solve, summarise, write results and report."""
+"""Running a load case: solve, then write results, summary and report."""
 
 from __future__ import annotations
 
+import json
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import xarray as xr
 
-from offwind_pin.analysis.drawing_data import outline, told
+from offwind_pin.analysis.drawing_data import (
+    damping_dataset,
+    modes_dataset,
+    soil_dataset,
+    static_dataset,
+    structure_dataset,
+)
+from offwind_pin.analysis.foundation.study.state import soil_displacement_reached, soil_springs
 from offwind_pin.analysis.modal import ModalResult, modes
-from offwind_pin.analysis.settling import Settling
+from offwind_pin.analysis.sea_data import waves_dataset
 from offwind_pin.analysis.simulate import simulate
 from offwind_pin.analysis.static import StaticResult, static
 from offwind_pin.analysis.tower_drag import tower_drag
-from offwind_pin.analysis.wave_checks import wave_facts
 from offwind_pin.base.errors import InterruptedSimulation, SolverError
-from offwind_pin.base.whole_files import write_json, write_netcdf
+from offwind_pin.base.whole_files import add_groups, write_json, write_netcdf, write_text
 from offwind_pin.cases.case import (
     Case,
     ModalAnalysis,
     StaticAnalysis,
     TransientAnalysis,
+    load_case,
 )
-from offwind_pin.cases.earthquake import Shaking
-from offwind_pin.cases.identification import (
-    identified_variables,
-    identify,
-    summarise_identified,
-)
+from offwind_pin.cases.earthquake import Shaking, earthquake_dataset
+from offwind_pin.cases.identification import identify
 from offwind_pin.cases.output_directory import check_writable
-from offwind_pin.cases.settling import settle, settling_variables, summarise_settling
-from offwind_pin.cases.summary import (
-    summarise_dampers,
-    summarise_damping,
-    summarise_modes,
-    summarise_run_s_waves,
-    summarise_spectrum,
-    summarise_static,
-)
-from offwind_pin.cases.tower_top import rotor_of, tower_top
-from offwind_pin.definitions.turbine import Turbine
-from offwind_pin.display.report.case_report import write_report
-from offwind_pin.display.report.contents import CaseReport, Published, WindDescription
+from offwind_pin.cases.report import report as render
+from offwind_pin.cases.settling import settle
+from offwind_pin.cases.tower_top import tower_top, wind_dataset
+from offwind_pin.cases.tree_summary import summary, summary_head
 from offwind_pin.dynamics.system import System
-from offwind_pin.loads.earthquake.description import EarthquakeDescription
 from offwind_pin.loads.sea.sea import Sea
-from offwind_pin.loads.wind.synthetic_thrust import SyntheticWind, operate_rotor
 from offwind_pin.results.blocks import time_reached
 from offwind_pin.results.dataset import versions
-from offwind_pin.results.states import modal_dataset, static_dataset
-from offwind_pin.signal.modal_identification.identify import IdentifiedModes
-from offwind_pin.signal.moment_spectrum import MomentSpectrum, moment_spectrum
+from offwind_pin.results.reading import FILE, analysed, open_case
+from offwind_pin.results.tree import prefixed
+from offwind_pin.signal.moment_spectrum import moment_spectrum
 
 Progress = Callable[[float, float], None]
+Groups = dict[str, xr.Dataset | None]
 
 
 @dataclass(frozen=True)
-class CaseResult:
-    """What a case gave: the summary, the dataset for NetCDF, and what the report shows."""
+class _Solved:
+    """What a solve gave.
 
-    summary: dict[str, Any]
-    data: xr.Dataset
-    system: System
-    modes: ModalResult | None = None
-    statics: dict[str, StaticResult] = field(default_factory=dict)
-    spectrum: MomentSpectrum | None = None
-    rotor: tuple[tuple[str, str], ...] = ()
-    earthquake: EarthquakeDescription | None = None
-    identified: IdentifiedModes | None = None
-    settling: Settling | None = None
+    Attributes
+    ----------
+    root : main dataset; None for time histories, which are in their file already
+    groups : datasets by path in the tree; None for those that the case does not have
+    simulated : float, s
+    """
+
+    root: xr.Dataset | None
+    groups: Groups
+    simulated: float = 0.0
 
 
-def run_case(case: Case, out: Path, *, progress: Progress | None = None) -> dict[str, Any]:
-    """Solve a case and write ``summary.json``, ``results.nc`` and ``report.html``.
+def run_case(
+    case: Case | str | Path,
+    out: Path | str,
+    *,
+    report: bool = True,
+    progress: Progress | None = None,
+) -> dict[str, Any]:
+    """Solve a case and write ``results.nc``, ``report.html`` and ``summary.json``.
 
-    Everything the user gave is checked before anything is written. A transient case that was
-    stopped goes on where it left off.
+    All input is checked before anything is written. A transient case that was stopped is continued
+    from the last block in ``out``.
 
     Parameters
     ----------
-    out : directory for the results, made if it is not there
+    case : a case, the name of a shipped one, or the path of a YAML file
+    out : directory for the results, created if necessary
+    report : whether to write ``report.html``; ``offwind report`` makes it later
     progress : called with simulated time and duration in s
 
     Returns
     -------
-    The summary.
+    dict : the content of ``summary.json``
 
     Raises
     ------
     InputError : something in the case cannot be used
     SolverError, InterruptedSimulation : the solve stopped; the results so far are in ``out``
     """
+    out = Path(out)
     check_writable(out)
-    turbine = case.turbine
+    if not isinstance(case, Case):
+        case = load_case(case)
     begun = time_reached(out)
     clock = time.perf_counter()
+    system = None
     try:
-        result = _solve(case, turbine, out, progress)
+        system = case.build()
+        solved = _solve(case, system, out, progress)
     except (SolverError, InterruptedSimulation) as stopped:
-        _write_partial(case, out, stopped, time.perf_counter() - clock, begun)
+        wall = time.perf_counter() - clock
+        _write_stopped(case, system, out, stopped, wall, begun)
         raise
     wall = time.perf_counter() - clock
-    summary = _head(case, "complete", wall, result.summary.pop("simulated_s", 0.0), begun)
-    summary |= result.summary | {"structural_damping": summarise_damping(result.system)}
-    _write(case, turbine, out, replace(result, summary=summary))
-    return summary
+    # The summary is written last: where it exists, the other files belong to it.
+    (out / "summary.json").unlink(missing_ok=True)
+    (out / "report.html").unlink(missing_ok=True)
+    if solved.root is not None:
+        write_netcdf(out / FILE, solved.root.assign_attrs(case=case.name))
+    account = _case_dataset(case, "complete", wall, solved.simulated, begun)
+    _add_groups(out / FILE, {"case": account, **_description(case, system), **solved.groups})
+    with open_case(out) as tree:
+        found = summary(tree)
+        if report:
+            write_text(out / "report.html", render(tree))
+    write_json(out / "summary.json", found)
+    return found
 
 
-def _solve(case: Case, turbine: Turbine, out: Path, progress: Progress | None) -> CaseResult:
+def _solve(case: Case, system: System, out: Path, progress: Progress | None) -> _Solved:
     if isinstance(case.analysis, StaticAnalysis):
-        return _solve_static(case, turbine, case.analysis, progress)
+        return _solve_static(case, system, case.analysis, progress)
     if isinstance(case.analysis, ModalAnalysis):
-        return _solve_modes(case, turbine, case.analysis, progress)
-    return _solve_transient(case, turbine, case.analysis, out, progress)
+        return _solve_modes(case, system, case.analysis, progress)
+    return _solve_transient(case, system, case.analysis, out, progress)
 
 
 def _solve_static(
-    case: Case,
-    turbine: Turbine,
-    analysis: StaticAnalysis,
-    progress: Progress | None,
-) -> CaseResult:
-    system = case.build()
+    case: Case, system: System, analysis: StaticAnalysis, progress: Progress | None
+) -> _Solved:
     state = static(system, engine=analysis.engine)
-    summary = summarise_static(state) | {"foundation": case.foundation}
-    statics: dict[str, StaticResult] = {case.foundation: state}
+    groups: Groups = {"soil": _soil(system, state)}
     if analysis.compare_with is not None:
-        other = static(case.build(analysis.compare_with), engine=analysis.engine)
-        reference = float(other.tower_top_displacement[0])
-        statics[analysis.compare_with] = other
-        summary[f"{analysis.compare_with}_tower_top_x_m"] = reference
-        if reference != 0:
-            increase = float(state.tower_top_displacement[0]) / reference - 1
-            summary[f"increase_over_{analysis.compare_with}_percent"] = 100 * increase
-    data = static_to_dataset(system, state)
-    settling = None
+        other = case.build(analysis.compare_with)
+        compared = static(other, engine=analysis.engine)
+        groups[f"static/{analysis.compare_with}"] = static_dataset(other, compared)
+    simulated = 0.0
     if analysis.settle is not None:
         settling = settle(system, state, analysis.settle, progress)
-        summary |= summarise_settling(settling)
-        data = data.assign(settling_variables(settling))
-    return CaseResult(summary, data, system, None, statics, settling=settling)
+        groups["settling"] = settling
+        simulated = float(settling["time"][-1])
+    return _Solved(static_dataset(system, state), groups, simulated)
 
 
 def _solve_modes(
-    case: Case,
-    turbine: Turbine,
-    analysis: ModalAnalysis,
-    progress: Progress | None,
-) -> CaseResult:
-    system = case.build()
+    case: Case, system: System, analysis: ModalAnalysis, progress: Progress | None
+) -> _Solved:
     state = static(system, engine=analysis.engine)
     result = modes(system, analysis.count, state, engine=analysis.engine)
-    table = summarise_modes(result)
-    summary: dict[str, Any] = {"foundation": case.foundation, "modes": table}
-    summary |= _frequencies(result)
-    summary |= {
-        f"{row['label']}_peak_height_ratio": row["shape_peak_height_ratio"] for row in table
+    groups: Groups = {
+        f"static/{case.foundation}": static_dataset(system, state),
+        "soil": _soil(system, state),
     }
-    summary |= summarise_static(state)
-    data = modes_to_dataset(system, result)
-    identified = None
+    simulated = 0.0
     if analysis.identify is not None:
         identified = identify(system, result, analysis.identify, case.seed, progress)
-        summary |= summarise_identified(identified)
-        data = data.assign(identified_variables(identified))
-    statics = {case.foundation: state}
-    return CaseResult(summary, data, system, result, statics, identified=identified)
+        groups["identified_modes"] = identified
+        simulated = float(identified.attrs["simulated_s"])
+    return _Solved(modes_dataset(system, result), groups, simulated)
 
 
 def _solve_transient(
     case: Case,
-    turbine: Turbine,
+    system: System,
     analysis: TransientAnalysis,
     out: Path,
     progress: Progress | None,
-) -> CaseResult:
-    system = case.build()
+) -> _Solved:
+    turbine = case.turbine
     top = tower_top(case, turbine, analysis)
     shaking = None
     if case.earthquake is not None:
@@ -198,42 +196,39 @@ def _solve_transient(
         provenance={"case": case.name, "seed": case.seed, **top.provenance},
         progress=None if progress is None else lambda now: progress(now, analysis.duration),
     )
-    state = static(system, top.mean, loads=wind, engine=analysis.engine)
-    result = modes(system, min(8, system.nv), state, engine=analysis.engine)
-    marked = _marked(system.sea, result, top.blade_passing_frequency)
-    spectrum = moment_spectrum(data, analysis.psd_segment, marked)
-    summary = summarise_spectrum(data, spectrum)
-    summary |= {
-        "simulated_s": analysis.duration,
-        "foundation": case.foundation,
-        "seed": case.seed,
-        "mudline_moment_y_static_under_mean_loads_Nm": float(state.mudline_load[4]),
-        "natural_frequencies_hz": dict(
-            zip(result.label, result.frequency_hz.tolist(), strict=True)
-        ),
-        "modes": summarise_modes(result),
-        **_frequencies(result),
-        "steps": round(analysis.duration / analysis.dt),
-        "mean_iterations": float(data["solver_iterations"][1:].mean()),
-        "largest_residual": float(data["solver_residual"].max()),
-        **summarise_dampers(data),
-        **top.summary(system, result, state),
-        **({} if shaking is None else {"earthquake": shaking.summary(result)}),
-    }
-    waves = wave_facts(system)
-    if waves:
-        summary["waves"] = waves | summarise_run_s_waves(data)
-    described = None if shaking is None else shaking.description(result)
-    statics = {case.foundation: state}
-    return CaseResult(summary, data, system, result, statics, spectrum, top.facts, described)
+    with data:
+        state = static(system, top.mean, loads=wind, engine=analysis.engine)
+        result = modes(system, min(8, system.nv), state, engine=analysis.engine)
+        marked = _marked(system.sea, result, top.blade_passing_frequency)
+        spectrum = moment_spectrum(data, analysis.psd_segment, marked)
+        groups: Groups = {
+            f"static/{case.foundation}": static_dataset(system, state),
+            "modes": modes_dataset(system, result),
+            "spectrum": spectrum.to_dataset(),
+            "soil": _soil(system, state, data),
+            "waves": waves_dataset(system, data, analysis.psd_segment),
+            "tower_top": top.dataset(),
+            "wind": wind_dataset(case, turbine),
+            "rotor": top.rotor_dataset(system, result, state),
+            "earthquake": None if shaking is None else earthquake_dataset(shaking, result),
+        }
+    return _Solved(None, groups, analysis.duration)
 
 
-def _frequencies(result: ModalResult) -> dict[str, float]:
-    """Natural frequencies by keys such as ``FA1_hz``, for published values to name."""
-    return {
-        f"{label}_hz": float(frequency)
-        for label, frequency in zip(result.label, result.frequency_hz, strict=True)
-    }
+def _soil(
+    system: System, state: StaticResult | None, histories: xr.Dataset | None = None
+) -> xr.Dataset | None:
+    """Soil curves with the displacements reached after the ramp, or in the static state."""
+    soil = soil_springs(system)
+    if soil is None:
+        return None
+    reached = None
+    if histories is not None and analysed(histories).sizes["time"] > 1:
+        reached = soil_displacement_reached(histories, soil)
+    elif state is not None:
+        size = np.hypot(*state.displacement[:, :2].T)
+        reached = np.interp(soil.height, state.height, size)
+    return soil_dataset(soil, system.turbine.site.mudline, reached)
 
 
 def _marked(sea: Sea | None, result: ModalResult, passing: float | None) -> dict[str, float]:
@@ -250,116 +245,89 @@ def _marked(sea: Sea | None, result: ModalResult, passing: float | None) -> dict
     return marked
 
 
-def static_to_dataset(system: System, state: StaticResult) -> xr.Dataset:
-    """A static state with its provenance."""
-    return static_dataset(
-        state.height,
-        displacement=state.displacement,
-        rotation=state.rotation,
-        section_load=state.section_load,
-        attributes=_attributes(system)
-        | {
-            "engine": state.engine,
-            "iterations": state.iterations,
-            "residual": state.residual,
-        },
-    )
-
-
-def modes_to_dataset(system: System, result: ModalResult) -> xr.Dataset:
-    """Natural modes with their provenance, and what a picture of them needs."""
-    return modal_dataset(
-        result.height,
-        result.label,
-        frequency_hz=result.frequency_hz,
-        damping_ratio=result.damping_ratio,
-        shape=result.shape,
-        mass_normalised=result.mass_normalised,
-        attributes=_attributes(system) | told(system) | {"engine": result.engine},
-        constants=outline(system),
-    )
-
-
-def _attributes(system: System) -> dict[str, Any]:
+def _description(case: Case, system: System) -> Groups:
+    """What describes a case without any solve."""
     return {
-        "turbine": system.turbine.name,
-        "definition_sha256": system.turbine.content_hash,
-        "foundation": system.foundation.name,
-        "sea": repr(system.sea) if system.sea else "dry",
-        "surrogates": system.foundation.surrogate or "none",
-        "elements": system.chain.elements,
+        "structure": structure_dataset(system),
+        "structural_damping": damping_dataset(system),
+        "published": _published_dataset(case),
     }
 
 
-def _head(case: Case, status: str, wall: float, simulated: float, begun: float) -> dict[str, Any]:
-    """First keys of a summary; a run that went on from ``begun`` seconds did the rest only."""
-    return {
-        "case": case.name,
+def _case_dataset(
+    case: Case, status: str, wall: float, simulated: float, begun: float
+) -> xr.Dataset:
+    """The definitions, and the account of the run; the run continued from ``begun`` seconds."""
+    definitions = {
+        "definition": json.dumps(case.model_dump(mode="json", by_alias=True)),
+        "turbine_definition": json.dumps(case.turbine.model_dump(mode="json", by_alias=True)),
+    }
+    account = {
         "status": status,
         "wall_s": wall,
         "simulated_s": simulated,
-        "realtime_factor": max(simulated - begun, 0.0) / wall,
-        **({"resumed_at_s": begun} if begun > 0 else {}),
-        **versions(),
+        "resumed_at_s": begun,
     }
-
-
-def _write(case: Case, turbine: Turbine, out: Path, result: CaseResult) -> None:
-    histories = result.data if isinstance(case.analysis, TransientAnalysis) else None
-    report = CaseReport(
-        name=case.name,
-        title=case.title or case.name,
-        description=case.description,
-        system=result.system,
-        summary=result.summary,
-        modes=result.modes,
-        statics=result.statics,
-        histories=histories,
-        published=tuple(
-            Published(row.quantity, row.value, row.unit, row.source or "", _ours(result, row.key))
-            for row in case.published
-        ),
-        wind=_wind_report(case, turbine),
-        psd=result.spectrum,
-        rotor=result.rotor,
-        earthquake=result.earthquake,
-        identified=result.identified,
-        settling=result.settling,
+    texts = {name: getattr(case, name) for name in ("name", "title", "description", "foundation")}
+    steps = {}
+    if isinstance(case.analysis, TransientAnalysis):
+        steps["steps"] = round(case.analysis.duration / case.analysis.dt)
+    return xr.Dataset(
+        attrs={
+            **texts,
+            "analysis": case.analysis.kind,
+            "seed": case.seed,
+            **account,
+            **steps,
+            **versions(),
+            **definitions,
+        }
     )
-    # The summary is written last, so that where it stands the other files belong to it.
-    (out / "summary.json").unlink(missing_ok=True)
-    if histories is None:
-        write_netcdf(out / "results.nc", result.data.assign_attrs(case=case.name))
-    write_report(out / "report.html", report)
-    write_json(out / "summary.json", result.summary)
 
 
-def _wind_report(case: Case, turbine: Turbine) -> WindDescription | None:
-    load = case.tower_top_load
-    if not isinstance(load, SyntheticWind):
+def _published_dataset(case: Case) -> xr.Dataset | None:
+    """Published values and the key of the summary that each is compared with."""
+    rows = case.published
+    if not rows:
         return None
-    rotor = operate_rotor(rotor_of(turbine), load.wind_speed, load.blade_passing_frequency)
-    return WindDescription(load.completed(case.seed), rotor)
+    texts = {
+        "quantity": [row.quantity for row in rows],
+        "key": [row.key for row in rows],
+        "unit": [row.unit for row in rows],
+        "origin": [row.source or "" for row in rows],
+    }
+    data = xr.Dataset(
+        {name: ("row", values, {"long_name": name}) for name, values in texts.items()}
+    )
+    about = {"long_name": "published value", "units": "as in the variable unit"}
+    return data.assign(value=("row", [row.value for row in rows], about))
 
 
-def _write_partial(
+def _add_groups(path: Path, groups: Groups) -> None:
+    """Add all groups that the case has; their dimensions get the name of the group."""
+    there = {name: prefixed(data, name) for name, data in groups.items() if data is not None}
+    add_groups(path, there)
+
+
+def _write_stopped(
     case: Case,
+    system: System | None,
     out: Path,
     stopped: SolverError | InterruptedSimulation,
     wall: float,
     begun: float,
 ) -> None:
-    """A summary that says so of a stopped run; its histories so far stand in ``results.nc``."""
+    """Summary and results of a run that stopped; its histories so far are in ``results.nc``."""
     status = "failed" if isinstance(stopped, SolverError) else "interrupted"
     (out / "report.html").unlink(missing_ok=True)
-    if stopped.results is None:
-        (out / "results.nc").unlink(missing_ok=True)
+    histories = stopped.results if isinstance(case.analysis, TransientAnalysis) else None
     reached = 0.0 if stopped.results is None else float(stopped.results["time"][-1])
-    head = _head(case, status, wall, reached, begun)
-    write_json(out / "summary.json", head | {"message": str(stopped)})
-
-
-def _ours(result: CaseResult, key: str) -> float | None:
-    """A number of the summary; None where there is none of that key."""
-    value = result.summary.get(key)
-    return float(value) if isinstance(value, int | float) else None
+    account = _case_dataset(case, status, wall, reached, begun)
+    account.attrs["message"] = str(stopped)
+    if histories is None or system is None:
+        (out / FILE).unlink(missing_ok=True)
+    else:
+        soil = _soil(system, None, histories)
+        groups = {"case": account, **_description(case, system), "soil": soil}
+        _add_groups(out / FILE, groups)
+    write_json(out / "summary.json", summary_head(account.attrs))

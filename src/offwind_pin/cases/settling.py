@@ -1,4 +1,4 @@
-"""A static state reached in time: gravity seizes the undeformed structure, which comes to rest."""
+"""A static state reached in time: the undeformed structure settles under gravity."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from offwind_pin.analysis.settling import Settling
 from offwind_pin.analysis.simulate import simulate
 from offwind_pin.analysis.static import StaticResult
 from offwind_pin.dynamics.system import System
+from offwind_pin.results.states import DIRECTIONS
 
 Progress = Callable[[float, float], None]
 
@@ -20,15 +20,20 @@ STEP = 0.05
 """s; the state at rest does not depend on it."""
 _OUTPUT = 0.5
 _AT_REST = 1e-6
-"""m from the static state, from where on a structure counts as settled."""
+"""m from the static state, below which a structure counts as settled."""
 
 _log = logging.getLogger(__name__)
 
 
 def settle(
     system: System, state: StaticResult, duration: float, progress: Progress | None = None
-) -> Settling:
-    """Let gravity seize the undeformed structure, and follow it for a duration in s."""
+) -> xr.Dataset:
+    """Apply gravity to the undeformed structure at once, and follow it for a duration in s.
+
+    Returns
+    -------
+    Dataset : displacement of the yaw bearing over time, and largest distance from the static state
+    """
     data = simulate(
         system,
         duration,
@@ -43,38 +48,43 @@ def settle(
     off = np.linalg.norm(moved - state.displacement, axis=2).max(axis=1)
     if off[-1] > _AT_REST:
         _log.warning(
-            "after %g s the structure is still %.2g m off its static state; give it damping, or a "
-            "longer settle_s",
+            "after %g s the structure is still %.2g m away from its static state; give it damping, "
+            "or a longer settle_s",
             duration,
             off[-1],
         )
-    top = data["tower_top_displacement"].to_numpy()
-    return Settling(data["time"].to_numpy(), top, off, state.tower_top_displacement)
+    return xr.Dataset(
+        {
+            "tower_top_displacement": (
+                ("time", "direction"),
+                data["tower_top_displacement"].to_numpy(),
+                {"long_name": "displacement of the yaw bearing", "units": "m"},
+            ),
+            "difference": (
+                "time",
+                off,
+                {
+                    "long_name": "largest distance of any recorded height from its static position",
+                    "units": "m",
+                },
+            ),
+            "static_tower_top_displacement": (
+                "direction",
+                state.tower_top_displacement,
+                {"long_name": "displacement of the yaw bearing in the static state", "units": "m"},
+            ),
+        },
+        {
+            "time": ("time", data["time"].to_numpy(), data["time"].attrs),
+            "direction": DIRECTIONS,
+        },
+    )
 
 
-def summarise_settling(settling: Settling) -> dict[str, Any]:
-    """Keys of the case's summary."""
+def summarise_settling(settling: xr.Dataset) -> dict[str, Any]:
+    """Keys for the summary of the case."""
+    last = settling.isel(time=-1)
     return {
-        "simulated_s": float(settling.time[-1]),
-        "settled_tower_top_x_m": float(settling.tower_top[-1, 0]),
-        "settled_difference_m": float(settling.difference[-1]),
-    }
-
-
-def settling_variables(settling: Settling) -> dict[str, xr.DataArray]:
-    """For the dataset of the static state."""
-    time = {"settling_time": ("settling_time", settling.time, {"units": "s"})}
-    return {
-        "settling_tower_top_displacement": xr.DataArray(
-            settling.tower_top,
-            dims=("settling_time", "direction"),
-            coords=time,
-            attrs={"long_name": "displacement of the yaw bearing", "units": "m"},
-        ),
-        "settling_difference": xr.DataArray(
-            settling.difference,
-            dims="settling_time",
-            coords=time,
-            attrs={"long_name": "largest distance from the static state", "units": "m"},
-        ),
+        "settled_tower_top_x_m": float(last["tower_top_displacement"].sel(direction="x")),
+        "settled_difference_m": float(last["difference"]),
     }

@@ -1,13 +1,15 @@
-"""From a case's tower-top load to what acts in the simulation, and what is told about it."""
+"""The tower-top load of a case: what acts in the simulation, and its description as data."""
 
 from __future__ import annotations
 
+import json
 import logging
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+import xarray as xr
 
 from offwind_pin.analysis.aerodynamic_damping import thrust_damping
 from offwind_pin.analysis.modal import ModalResult
@@ -18,7 +20,6 @@ from offwind_pin.cases.case import Case, TransientAnalysis
 from offwind_pin.cases.schema.tower_top import LoadFile, TowerTopLoadFile
 from offwind_pin.definitions.rotor_disc import rotor_disc
 from offwind_pin.definitions.turbine import RotorNacelleRNA, Turbine
-from offwind_pin.display.wording import number, quantity
 from offwind_pin.dynamics.system import System
 from offwind_pin.formats.openfast.output import read_openfast_output
 from offwind_pin.formats.openfast.warnings import load_cautions
@@ -36,6 +37,7 @@ from offwind_pin.formats.openfast.yaw_bearing_load import (
 from offwind_pin.loads.tower_top.load_history import LoadHistory, read_load_history
 from offwind_pin.loads.wind.rotor_load import RotorLoad
 from offwind_pin.loads.wind.rotor_thrust import RotorThrust
+from offwind_pin.loads.wind.synthetic_thrust import AIR_DENSITY, SyntheticWind, operate_rotor
 from offwind_pin.loads.wind.thrust_table import ThrustTable, inflow_time
 
 _log = logging.getLogger(__name__)
@@ -66,56 +68,47 @@ class TowerTop:
 
     @property
     def provenance(self) -> dict[str, Any]:
-        """Attributes for the results."""
-        told = {}
+        """Attributes for the histories."""
+        attributes = {}
         if isinstance(self.acting, RotorThrust):
             thrust = self.acting
             source = thrust.disc.rotor.thrust_coefficient.source or thrust.disc.rotor.source
-            told["tower_top_load_origin"] = (
+            attributes["tower_top_load_origin"] = (
                 f"rotor thrust, {thrust.control} control; {thrust.wind.origin}; thrust "
                 f"coefficient: {source or 'the user'}"
             )
-            told["tower_top_load_holds"] = "prescribed loads; a rotor's thrust is not among them"
+            attributes["tower_top_load_holds"] = (
+                "prescribed loads; a rotor's thrust is not among them"
+            )
         if self.notes or self.cautions:
-            told["tower_top_load_notes"] = " | ".join([*self.notes, *self.cautions])
-        return told
+            attributes["tower_top_load_notes"] = " | ".join([*self.notes, *self.cautions])
+        return attributes
 
-    @property
-    def facts(self) -> tuple[tuple[str, str], ...]:
-        """Name and value of what a report tells of a running rotor."""
-        if not isinstance(self.acting, RotorThrust) or self.mean is None:
-            return ()
-        thrust, mean = self.acting, self.acting.wind.mean
-        disc = thrust.disc
-        control = f"{thrust.control}"
-        if thrust.control == "lagged":
-            control += f", time constant {quantity(thrust.control_time, 's')}"
-        wake = "in equilibrium"
-        if thrust.inflow_lag:
-            wake = f"lags, time constant {quantity(inflow_time(disc, mean), 's', 3)}"
-        coefficient = ThrustTable(disc).coefficient(mean)[0]
-        return (
-            ("mean wind at the hub", quantity(mean, "m/s")),
-            (
-                "standard deviation of the rotor-effective wind",
-                quantity(float(np.std(thrust.wind.speed)), "m/s", 3),
-            ),
-            ("thrust coefficient", number(coefficient, 3)),
-            ("mean thrust", quantity(float(np.linalg.norm(self.mean[:3])) / 1e6, "MN")),
-            ("blade-passing frequency", quantity(self.blade_passing_frequency or 0.0, "Hz", 3)),
-            ("controller", control),
-            ("wake", wake),
-            ("wind", thrust.wind.origin),
+    def dataset(self) -> xr.Dataset | None:
+        """Mean load, and what was done to the user's numbers; None for no load."""
+        if self.mean is None:
+            return None
+        component = ["Fx", "Fy", "Fz", "Mx", "My", "Mz"]
+        about = {"long_name": "mean load at the yaw bearing", "units": "N for F, N m for M"}
+        return xr.Dataset(
+            {"mean_load": ("component", self.mean, about)},
+            {"component": ("component", component, {"long_name": "component of a load"})},
+            {"notes": json.dumps(self.notes), "cautions": json.dumps(self.cautions)},
         )
 
-    def summary(self, system: System, found: ModalResult, state: StaticResult) -> dict[str, Any]:
-        """Keys for ``summary.json``; the modes are those about the mean load."""
-        told: dict[str, Any] = {}
-        if self.notes or self.cautions:
-            told |= {"tower_top_load_notes": self.notes, "tower_top_load_cautions": self.cautions}
+    def rotor_dataset(
+        self, system: System, found: ModalResult, state: StaticResult
+    ) -> xr.Dataset | None:
+        """The operating point of a running rotor and its damping; None for another load.
+
+        Parameters
+        ----------
+        found, state : modes about the mean load, and the static state under it
+        """
         if not isinstance(self.acting, RotorThrust) or self.mean is None:
-            return told
-        ratio = thrust_damping(system, self.acting, found, state)
+            return None
+        thrust, mean = self.acting, self.acting.wind.mean
+        ratio = thrust_damping(system, thrust, found, state)
         for label, aerodynamic, own in zip(found.label, ratio, found.damping_ratio, strict=True):
             if aerodynamic + own < 0:
                 _log.warning(
@@ -125,13 +118,106 @@ class TowerTop:
                     aerodynamic + own,
                     aerodynamic,
                 )
-        return told | {
-            "mean_thrust_N": float(np.linalg.norm(self.mean[:3])),
+        disc = thrust.disc
+        values = {
+            "mean_wind": (mean, "mean wind at the hub", "m/s"),
+            "wind_standard_deviation": (
+                float(np.std(thrust.wind.speed)),
+                "standard deviation of the rotor-effective wind",
+                "m/s",
+            ),
+            "thrust_coefficient": (
+                ThrustTable(disc).coefficient(mean)[0],
+                "thrust coefficient",
+                "1",
+            ),
+            "mean_thrust": (float(np.linalg.norm(self.mean[:3])), "mean thrust", "N"),
+            "blade_passing_frequency": (
+                self.blade_passing_frequency or 0.0,
+                "blade-passing frequency",
+                "Hz",
+            ),
+        }
+        if thrust.control == "lagged":
+            lag = "time constant of the controller"
+            values["control_time"] = (thrust.control_time, lag, "s")
+        if thrust.inflow_lag:
+            values["wake_time"] = (inflow_time(disc, mean), "time constant of the wake", "s")
+        return xr.Dataset(
+            {
+                name: ((), value, {"long_name": text, "units": unit})
+                for name, (value, text, unit) in values.items()
+            }
+            | {
+                "aerodynamic_damping": (
+                    "mode",
+                    ratio,
+                    {"long_name": "aerodynamic damping ratio, of critical", "units": "1"},
+                )
+            },
+            {"mode": ("mode", found.label, {"long_name": "label of the mode"})},
+            {"control": thrust.control, "wind": thrust.wind.origin},
+        )
+
+
+def summarise_tower_top(load: xr.Dataset | None, rotor: xr.Dataset | None) -> dict[str, Any]:
+    """Keys for ``summary.json``."""
+    summary: dict[str, Any] = {}
+    if load is not None:
+        notes, cautions = (json.loads(load.attrs[name]) for name in ("notes", "cautions"))
+        if notes or cautions:
+            summary |= {"tower_top_load_notes": notes, "tower_top_load_cautions": cautions}
+    if rotor is not None:
+        damping = rotor["aerodynamic_damping"]
+        summary |= {
+            "mean_thrust_N": float(rotor["mean_thrust"]),
             "aerodynamic_damping": [
-                {"label": label, "ratio": float(value)}
-                for label, value in zip(found.label, ratio, strict=True)
+                {"label": str(label), "ratio": float(ratio)}
+                for label, ratio in zip(rotor["mode"].to_numpy(), damping.to_numpy(), strict=True)
             ],
         }
+    return summary
+
+
+def wind_dataset(case: Case, turbine: Turbine) -> xr.Dataset | None:
+    """As :func:`synthetic_dataset`, of a case; None for another load."""
+    load = case.tower_top_load
+    if not isinstance(load, SyntheticWind):
+        return None
+    return synthetic_dataset(load.completed(case.seed), rotor_of(turbine))
+
+
+def synthetic_dataset(made: SyntheticWind, rna: RotorNacelleRNA) -> xr.Dataset:
+    """Settings of the generator of a synthetic load, and the operating point of the rotor."""
+    rotor = operate_rotor(rna, made.wind_speed, made.blade_passing_frequency)
+    scalars = {
+        "wind_speed": (rotor.wind_speed, "mean wind at the hub", "m/s"),
+        "turbulence_intensity": (made.turbulence_intensity, "turbulence intensity", "1"),
+        "blade_passing_frequency": (made.blade_passing_frequency, "blade-passing frequency", "Hz"),
+        "rotor_speed": (rotor.rotor_speed, "rotor speed", "rad/s"),
+        "radius": (rotor.radius, "rotor radius", "m"),
+        "swept_area": (rotor.swept_area, "swept area", "m2"),
+        "tip_speed_ratio": (rotor.tip_speed_ratio, "tip-speed ratio", "1"),
+        "power_coefficient": (rotor.power_coefficient, "power coefficient", "1"),
+        "induction": (rotor.induction, "axial induction factor", "1"),
+        "thrust_coefficient": (rotor.thrust_coefficient, "thrust coefficient", "1"),
+        "thrust": (rotor.thrust, "mean thrust", "N"),
+        "torque": (rotor.torque, "mean torque", "N m"),
+        "air_density": (AIR_DENSITY, "density of the air", "kg/m3"),
+    }
+    about = {
+        "long_name": "standard deviation of the thrust at a multiple of the blade-passing "
+        "frequency over the mean thrust",
+        "units": "1",
+    }
+    return xr.Dataset(
+        {
+            name: ((), value, {"long_name": text, "units": unit})
+            for name, (value, text, unit) in scalars.items()
+        }
+        | {"harmonics": ("harmonic", np.array(made.harmonics), about)},
+        attrs={"seed": made.wind_seed, "blades": rna.blades, "surrogate": made.surrogate},
+    )
 
 
 def tower_top(case: Case, turbine: Turbine, analysis: TransientAnalysis) -> TowerTop:

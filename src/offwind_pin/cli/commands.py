@@ -224,9 +224,12 @@ def run(
         ),
     ],
     out: Annotated[Path, typer.Option(help="Directory for the results.")],
+    report: Annotated[  # noqa: FBT002
+        bool, typer.Option(help="Write report.html; offwind report makes it later.")
+    ] = True,
     as_json: JsonOption = False,  # noqa: FBT002
 ) -> None:
-    """Solve a load case; write summary.json, results.nc and report.html."""
+    """Solve a load case; write results.nc, report.html and summary.json."""
     from offwind_pin.cases.case import load_case
     from offwind_pin.cases.run import run_case
     from offwind_pin.cli.progress import simulation_progress
@@ -234,12 +237,30 @@ def run(
 
     definition = load_case(case)
     with simulation_progress() as progress:
-        summary = run_case(definition, out, progress=progress)
+        summary = run_case(definition, out, report=report, progress=progress)
     if as_json:
         _print_json(summary)
         return
     print_values(definition.title or definition.name, summary)
-    typer.echo(f"Report: {out / 'report.html'}")
+    if report:
+        typer.echo(f"Report: {out / 'report.html'}")
+
+
+@app.command("report")
+def report_command(
+    directory: Annotated[Path, typer.Argument(help="Output directory of offwind run.")],
+) -> None:
+    """Write report.html again from the results in a directory, without solving."""
+    from offwind_pin.base.errors import InputError
+    from offwind_pin.cases.output_directory import check_writable
+    from offwind_pin.cases.report import report_again
+
+    if not directory.is_dir():
+        raise InputError(
+            "DIR", str(directory), "an existing directory", "Name the --out of offwind run."
+        )
+    check_writable(directory)
+    typer.echo(f"Wrote {report_again(directory)}")
 
 
 @app.command("animate")
@@ -310,7 +331,8 @@ def view_command(
         check_frames(frames)
         check_writable(frames.parent)
     labels = None if mode_list is None else [part.strip().upper() for part in mode_list.split(",")]
-    view = View(_results_of(source, foundation, dry=dry), start, duration, labels)
+    results = _results_of(source, foundation, dry=dry, modal=labels is not None)
+    view = View(results, start, duration, labels)
     if html is not None:
         write_text(html, view.page())
         typer.echo(f"Wrote {html}")
@@ -331,19 +353,25 @@ def view_command(
         serve(view.page(), port, browser=browser)
 
 
-def _results_of(source: str, foundation: str, *, dry: bool) -> xr.Dataset:
-    """Results read from a file; of a turbine its modes, the only thing that is solved here."""
+def _results_of(source: str, foundation: str, *, dry: bool, modal: bool) -> xr.Dataset:
+    """Results read from a file; of a turbine its modes, the only thing that is solved here.
+
+    modal : whether modes are asked for, which a time history may have in a group
+    """
     from offwind_pin.analysis.build import build
+    from offwind_pin.analysis.drawing_data import modes_dataset
     from offwind_pin.analysis.modal import modes
     from offwind_pin.base.errors import InputError
-    from offwind_pin.cases.run import modes_to_dataset
     from offwind_pin.definitions.reader import load_turbine
     from offwind_pin.loads.sea.sea import StillWater
     from offwind_pin.results.reading import open_results
+    from offwind_pin.results.tree import part
 
     path = Path(source)
     if path.is_dir() or path.suffix == ".nc":
-        return open_results(path)
+        tree = open_results(path)
+        found = part(tree, "modes") if modal else None
+        return tree.to_dataset() if found is None else found
     if not path.exists() and source not in shipped_turbines():
         raise InputError(
             "SOURCE",
@@ -353,7 +381,7 @@ def _results_of(source: str, foundation: str, *, dry: bool) -> xr.Dataset:
             "Check the path; offwind run makes results.",
         )
     system = build(load_turbine(source), foundation, None if dry else StillWater())
-    return modes_to_dataset(system, modes(system, min(10, system.nv)))
+    return modes_dataset(system, modes(system, min(10, system.nv)))
 
 
 @app.command()

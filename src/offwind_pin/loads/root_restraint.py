@@ -48,7 +48,7 @@ class RootRestraint(Protocol):
 
 
 @restraint_commit
-def _nothing_kept(displacement: Array, numbers: Array, memory: Array) -> float:
+def nothing_kept_by_root(displacement: Array, numbers: Array, memory: Array) -> float:
     """Of a restraint without memory."""
     return 0.0
 
@@ -57,7 +57,7 @@ class KernelRestraint(ABC):
     """A restraint whose physics is in compiled kernels."""
 
     reaction_kernel: ClassVar[ExchangeableKernel]
-    commit_kernel: ClassVar[ExchangeableKernel] = _nothing_kept
+    commit_kernel: ClassVar[ExchangeableKernel] = nothing_kept_by_root
 
     @property
     @abstractmethod

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from offwind_pin.base.whole_files import append_netcdf
 from offwind_pin.results.blocks import Block, BlockStore
+from offwind_pin.results.tree import TITLES
 
 Array = NDArray[np.float64]
 
@@ -119,7 +120,7 @@ class HistoryWriter:
                 ("time", "segment", "component"),
                 block["imbalance"],
                 _about(
-                    "what section loads, applied loads and inertia of a segment leave over; "
+                    "imbalance of section loads, applied loads and inertia of a segment; "
                     "moments about its lower end",
                     "N for F, N m for M",
                 ),
@@ -133,8 +134,8 @@ class HistoryWriter:
                 ("time",),
                 block["wave_elevation"],
                 _about(
-                    "surface elevation of the undisturbed wave at x = 0, about the mean water "
-                    "level",
+                    "surface elevation of the undisturbed wave at x = 0, relative to the mean "
+                    "water level",
                     "m",
                     "Wave1Elev",
                 ),
@@ -142,18 +143,18 @@ class HistoryWriter:
             "energy_stored": (
                 ("time", "holder"),
                 stored[:, holders],
-                {"long_name": "energy that the state holds", "units": "J"},
+                {"long_name": "stored energy", "units": "J"},
             ),
             "energy_dissipated": (
                 ("time", "sink"),
                 dissipated,
-                {"long_name": "energy turned into heat since the start", "units": "J"},
+                {"long_name": "energy dissipated since the start", "units": "J"},
             ),
             "energy_worked": (
                 ("time", "source"),
                 worked[:, sources],
                 {
-                    "long_name": "work done by loads, and by a ground that moves, since the start",
+                    "long_name": "work done by loads and by the moving ground since the start",
                     "units": "J",
                 },
             ),
@@ -161,69 +162,80 @@ class HistoryWriter:
                 ("time",),
                 balance,
                 {
-                    "long_name": "energy gained since the start, and dissipated, less work done",
+                    "long_name": "change of stored energy plus dissipated energy minus work done",
                     "units": "J",
                 },
             ),
             "solver_step": (
                 ("time",),
                 block["step"],
-                {"long_name": "time step; not a number where the solver chooses", "units": "s"},
+                {"long_name": "time step; NaN if chosen by the solver", "units": "s"},
             ),
             "solver_iterations": (
                 ("time",),
                 block["iterations"],
-                {"long_name": "corrections of Newton's method in the step"},
+                {"long_name": "Newton iterations in the step", "units": "1"},
             ),
             "solver_residual": (
                 ("time",),
                 block["residual"],
-                {"long_name": "largest residual over the load scale", "units": "1"},
+                {"long_name": "largest residual relative to the load scale", "units": "1"},
             ),
         }
         if len(self.soil):
             channels["soil_force"] = (
                 ("time", "soil_node", "direction"),
                 block["soil_force"],
-                _about("force of the soil's springs and dashpots on the pile at each node", "N"),
+                _about("force of the soil springs and dashpots on the pile at each node", "N"),
             )
         if self.dampers:
             channels["tuned_mass_displacement"] = (
                 ("time", "damper", "across"),
-                block["slip"],
+                block["stroke"],
                 {
-                    "long_name": "displacement of a tuned mass damper's mass against its carrier",
+                    "long_name": "displacement of a tuned mass relative to its carrier",
                     "units": "m",
-                    "frame": "x and y of the body that carries it",
+                    "frame": "x and y of the carrier",
                 },
             )
             channels["tuned_mass_travel"] = (
                 ("damper",),
                 np.array(list(self.dampers.values())),
-                {"long_name": "displacement that a tuned mass damper has room for", "units": "m"},
+                {"long_name": "available travel of a tuned mass damper", "units": "m"},
             )
         names = np.array([*HOLDERS, *self.loads])
         coordinates = {
             "time": ("time", block["time"], {"long_name": "simulated time", "units": "s"}),
             "height": ("height", self.height, {"long_name": "undeformed height", "units": "m"}),
-            "direction": ["x", "y", "z"],
-            "component": ["Fx", "Fy", "Fz", "Mx", "My", "Mz"],
-            "segment": [f"{low:g} to {high:g} m" for low, high in self.segments],
-            "holder": names[holders].tolist(),
-            "sink": [*SINKS, *self.loads],
-            "source": np.array(["ground", "", *self.loads])[sources].tolist(),
+            "direction": _names("direction", ["x", "y", "z"], "axis of the inertial frame"),
+            "component": _names(
+                "component", ["Fx", "Fy", "Fz", "Mx", "My", "Mz"], "component of a load"
+            ),
+            "segment": _names(
+                "segment",
+                [f"{low:g} to {high:g} m" for low, high in self.segments],
+                "heights of the ends of the segment",
+            ),
+            "holder": _names("holder", names[holders].tolist(), "kind of stored energy"),
+            "sink": _names("sink", [*SINKS, *self.loads], "what dissipates energy"),
+            "source": _names(
+                "source",
+                np.array(["ground", "", *self.loads])[sources].tolist(),
+                "what does work on the structure",
+            ),
         }
         if shaken:
             channels |= _ground_channels(block["ground_motion"])
-            about = {"long_name": "height of the ground's recorded motion", "units": "m"}
+            about = {"long_name": "height at which the ground motion is recorded", "units": "m"}
             coordinates["level"] = ("level", self.levels, about)
         if len(self.soil):
-            of_node = {"long_name": "undeformed height of the node of the soil", "units": "m"}
+            of_node = {"long_name": "undeformed height of the soil node", "units": "m"}
             coordinates["soil_node"] = ("soil_node", self.soil, of_node)
         if self.dampers:
-            coordinates |= {"damper": list(self.dampers), "across": ["x", "y"]}
+            coordinates["damper"] = _names("damper", list(self.dampers), "tuned mass damper")
+            coordinates["across"] = _names("across", ["x", "y"], "axis of the carrier")
         attributes = {
-            "title": "offwind-pin time histories",
+            "title": TITLES["histories"],
             **versions(),
             "frame": FRAME,
             "mudline_m": self.mudline,
@@ -249,6 +261,10 @@ def versions() -> dict[str, str]:
         "offwind_pin_version": metadata.version("offwind-pin"),
         "pinocchio_version": metadata.version("pin"),
     }
+
+
+def _names(dimension: str, names: list[str], about: str) -> tuple[str, list[str], dict[str, str]]:
+    return dimension, names, {"long_name": about}
 
 
 def _about(name: str, units: str, alias: str | None = None) -> dict[str, str]:

@@ -8,35 +8,61 @@ import xarray as xr
 
 from offwind_pin.base.errors import InputError
 
+FILE = "results.nc"
 _TITLE = "offwind-pin"
+_REMEDY = "Name the output directory of `offwind run`, or a results.nc."
 
 
-def open_results(source: Path) -> xr.Dataset:
-    """A dataset that a run wrote, read channel by channel as they are asked for.
+def open_results(source: Path | str) -> xr.DataTree:
+    """The results of a run as a tree, read channel by channel on demand.
 
     Parameters
     ----------
-    source : a directory of a run, or the file ``results.nc`` itself
+    source : output directory of a run, or the file ``results.nc`` itself
+
+    Returns
+    -------
+    xarray.DataTree : close it after use, or use it in a ``with`` statement
 
     Raises
     ------
-    InputError : no results there, or a file that is something else
+    InputError : no results found, or a file of another origin
     """
-    path = source / "results.nc" if source.is_dir() else source
-    remedy = "Name the directory of a finished `offwind run`, or a results.nc."
+    given = Path(source)
+    path = given / FILE if given.is_dir() else given
     if not path.is_file():
-        raise InputError("results", str(path), "a file that is there", remedy)
+        raise InputError("results", str(path), "an existing file", _REMEDY)
     try:
-        data = xr.open_dataset(path, engine="netcdf4")
+        tree = xr.open_datatree(path, engine="netcdf4")
     except (OSError, ValueError) as error:
         allowed = f"results of this program as NetCDF ({error})"
-        raise InputError("results", str(path), allowed, remedy) from None
-    title = str(data.attrs.get("title", ""))
+        raise InputError("results", str(path), allowed, _REMEDY) from None
+    title = str(tree.attrs.get("title", ""))
     if not title.startswith(_TITLE):
-        data.close()
+        tree.close()
         allowed = f"a title that begins with {_TITLE!r} (found {title!r})"
-        raise InputError("results", str(path), allowed, remedy)
-    return data
+        raise InputError("results", str(path), allowed, _REMEDY)
+    return tree
+
+
+def open_case(source: Path | str) -> xr.DataTree:
+    """As :func:`open_results`, of a file that a case was written to with all its groups.
+
+    Raises
+    ------
+    InputError : as there; or only the main dataset is present
+    """
+    tree = open_results(source)
+    if "case" not in tree.children:
+        tree.close()
+        raise InputError(
+            "results",
+            str(source),
+            "results of `offwind run` of this version, with the groups case, structure, ...",
+            "Run the case again: this file is from an older version, from ow.simulate, or from a "
+            "run that was killed before it had finished.",
+        )
+    return tree
 
 
 def analysed(histories: xr.Dataset) -> xr.Dataset:

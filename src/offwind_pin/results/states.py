@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
+import json
+from collections.abc import Sequence
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
 from offwind_pin.results.dataset import FRAME, SECTION, versions
+from offwind_pin.results.tree import TITLES
 
 Array = NDArray[np.float64]
 
-_DIRECTIONS = ["x", "y", "z"]
+DIRECTIONS = ("direction", ["x", "y", "z"], {"long_name": "axis of the inertial frame"})
+_MOTIONS = ["x", "y", "z", "rx", "ry", "rz"]
+_HEIGHT = {"long_name": "undeformed height", "units": "m"}
+_MIXED = "m for translations, rad for rotations"
 
 
 def static_dataset(
@@ -22,30 +26,54 @@ def static_dataset(
     displacement: Array,
     rotation: Array,
     section_load: Array,
-    attributes: dict[str, Any],
+    joint_displacement: Array,
+    memory: Array,
+    iterations: int,
+    residual: float,
+    mudline: float,
+    engine: str,
+    loads: Sequence[str],
 ) -> xr.Dataset:
-    """A static state over height (m,) in m.
+    """A static state over height.
 
-    displacement, rotation (m, 3) in m and rad; section_load (m, 6) in N and N m.
+    Parameters
+    ----------
+    height : (m,) array, m
+    displacement, rotation : (m, 3) arrays, m and rad
+    section_load : (m, 6) array, N and N m
+    joint_displacement : (nv,) array, m and rad
+    memory : (k,) array, state of soil and foundation
+    mudline : float, m
+    engine : that evaluated the equations
+    loads : names of the applied loads
     """
     along = ("height", "direction")
+    variables = {
+        "displacement": (along, displacement, _about("displacement of the axis", "m")),
+        "rotation": (along, rotation, _about("rotation of the axis", "rad")),
+        "section_force": (along, section_load[:, :3], _about(f"section force: {SECTION}", "N")),
+        "section_moment": (along, section_load[:, 3:], _about(f"section moment: {SECTION}", "N m")),
+        "joint_displacement": (
+            "joint",
+            joint_displacement,
+            {"long_name": "displacement of the joints", "units": _MIXED},
+        ),
+    }
+    if len(memory):
+        remembered = {"long_name": "state variables of soil and foundation", "units": "various"}
+        variables["memory"] = ("memory_entry", memory, remembered)
     return xr.Dataset(
+        variables,
+        {"height": ("height", height, _HEIGHT), "direction": DIRECTIONS},
         {
-            "displacement": (along, displacement, {"units": "m", "frame": FRAME}),
-            "rotation": (along, rotation, {"units": "rad", "frame": FRAME}),
-            "section_force": (
-                along,
-                section_load[:, :3],
-                {"long_name": f"section force: {SECTION}", "units": "N", "frame": FRAME},
-            ),
-            "section_moment": (
-                along,
-                section_load[:, 3:],
-                {"long_name": f"section moment: {SECTION}", "units": "N m", "frame": FRAME},
-            ),
+            "title": TITLES["static"],
+            **versions(),
+            "mudline_m": mudline,
+            "engine": engine,
+            "iterations": iterations,
+            "residual": residual,
+            "loads": json.dumps(list(loads)),
         },
-        coords={"height": ("height", height, {"units": "m"}), "direction": _DIRECTIONS},
-        attrs={"title": "offwind-pin static state", **versions(), **attributes},
     )
 
 
@@ -57,30 +85,76 @@ def modal_dataset(
     damping_ratio: Array,
     shape: Array,
     mass_normalised: Array,
-    attributes: dict[str, Any],
-    constants: Mapping[str, tuple[str, Array, dict[str, str]]],
+    participation: Array,
+    families: Sequence[str],
+    damper_share: Array,
+    vector: Array,
+    peak_height_ratio: Array,
+    engine: str,
 ) -> xr.Dataset:
-    """Natural modes (n,) with shapes (n, m, 6) over height (m,) in m.
+    """Natural modes over height.
 
-    constants : what else a picture needs, by name: dimension, values, attributes
+    Parameters
+    ----------
+    height : (m,) array, m
+    label : n labels
+    frequency_hz, damping_ratio : (n,) arrays, Hz and 1
+    shape, mass_normalised : (n, m, 6) arrays
+    participation : (n, f) array, 1; of f families of joints
+    damper_share, peak_height_ratio : (n,) arrays, 1
+    vector : (nv, n) array
+    engine : that evaluated the equations
     """
     along = ("mode", "height", "motion")
+    about = {
+        "frequency": ("mode", frequency_hz, "natural frequency", "Hz"),
+        "damping_ratio": ("mode", damping_ratio, "damping ratio, of critical", "1"),
+        "shape": (along, shape, "mode shape with unit peak", "1"),
+        "mass_normalised": (
+            along,
+            mass_normalised,
+            "mode shape with unit modal mass",
+            "kg^-1/2 for translations, rad kg^-1/2 m^-1 for rotations",
+        ),
+        "participation": (
+            ("mode", "family"),
+            participation,
+            "share of the potential energy by family",
+            "1",
+        ),
+        "damper_share": (
+            "mode",
+            damper_share,
+            "share of the potential energy in tuned mass dampers",
+            "1",
+        ),
+        "joint_shape": (
+            ("joint", "mode"),
+            vector,
+            "mass-normalised joint displacements",
+            "kg^-1/2 for translations, rad kg^-1/2 m^-1 for rotations",
+        ),
+        "peak_height_ratio": (
+            "mode",
+            peak_height_ratio,
+            "height of the peak, mudline 0, yaw bearing 1",
+            "1",
+        ),
+    }
     return xr.Dataset(
         {
-            "frequency": ("mode", frequency_hz, {"long_name": "natural frequency", "units": "Hz"}),
-            "damping_ratio": ("mode", damping_ratio, {"units": "1"}),
-            "shape": (along, shape, {"long_name": "shape with unit peak", "frame": FRAME}),
-            "mass_normalised": (
-                along,
-                mass_normalised,
-                {"long_name": "shape with unit modal mass", "frame": FRAME},
-            ),
-            **constants,
+            name: (dims, values, {"long_name": text, "units": units})
+            for name, (dims, values, text, units) in about.items()
         },
-        coords={
-            "mode": label,
-            "height": ("height", height, {"units": "m"}),
-            "motion": ["x", "y", "z", "rx", "ry", "rz"],
+        {
+            "mode": ("mode", label, {"long_name": "label of the mode"}),
+            "height": ("height", height, _HEIGHT),
+            "motion": ("motion", _MOTIONS, {"long_name": "displacement or rotation of the axis"}),
+            "family": ("family", list(families), {"long_name": "family of joints"}),
         },
-        attrs={"title": "offwind-pin natural modes", **versions(), **attributes},
+        {"title": TITLES["modes"], **versions(), "frame": FRAME, "engine": engine},
     )
+
+
+def _about(name: str, units: str) -> dict[str, str]:
+    return {"long_name": name, "units": units, "frame": FRAME}

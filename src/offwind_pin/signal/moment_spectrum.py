@@ -15,6 +15,8 @@ from offwind_pin.signal.spectra import band_sum, peaks, power_spectral_density
 if TYPE_CHECKING:
     import xarray as xr
 
+_FREQUENCY = {"long_name": "frequency", "units": "Hz"}
+
 
 @dataclass(frozen=True)
 class Band:
@@ -49,6 +51,56 @@ class MomentSpectrum:
     bands: tuple[Band, ...]
     marked: Mapping[str, float]
     segment: float
+
+    def to_dataset(self) -> xr.Dataset:
+        """The spectrum, its bands, peaks and marked frequencies as a labelled dataset."""
+        import xarray as xr
+
+        about = {
+            "density": (
+                "frequency",
+                self.density,
+                "one-sided PSD of the fore-aft moment at the mudline",
+                "(N m)2/Hz",
+            ),
+            "peak": ("peak_number", np.array(self.peaks), "frequency of a peak", "Hz"),
+            "band_low": ("band", [b.low for b in self.bands], "lower end of the band", "Hz"),
+            "band_high": ("band", [b.high for b in self.bands], "upper end of the band", "Hz"),
+            "band_area": ("band", [b.area for b in self.bands], "PSD sum of the band", "(N m)2"),
+            "marked_frequency": (
+                "mark",
+                np.array(list(self.marked.values())),
+                "frequency of interest",
+                "Hz",
+            ),
+        }
+        return xr.Dataset(
+            {
+                name: (dims, values, {"long_name": text, "units": units})
+                for name, (dims, values, text, units) in about.items()
+            },
+            {
+                "frequency": ("frequency", self.frequency, _FREQUENCY),
+                "mark": ("mark", list(self.marked), {"long_name": "name of the frequency"}),
+            },
+            {"segment_s": self.segment},
+        )
+
+    @staticmethod
+    def from_dataset(data: xr.Dataset) -> MomentSpectrum:
+        """A spectrum read back from :meth:`to_dataset`."""
+        bands = (data[f"band_{name}"].to_numpy().tolist() for name in ("low", "high", "area"))
+        marked = zip(
+            data["mark"].to_numpy(), data["marked_frequency"].to_numpy().tolist(), strict=True
+        )
+        return MomentSpectrum(
+            data["frequency"].to_numpy(),
+            data["density"].to_numpy(),
+            tuple(data["peak"].to_numpy().tolist()),
+            tuple(Band(*band) for band in zip(*bands, strict=True)),
+            {str(name): frequency for name, frequency in marked},
+            float(data.attrs["segment_s"]),
+        )
 
     @property
     def ratio(self) -> float | None:

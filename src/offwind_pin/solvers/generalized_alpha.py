@@ -11,6 +11,7 @@ and a compiled system gives its own of them to Numba (``numba.extending.overload
 
 from __future__ import annotations
 
+import math
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
@@ -24,14 +25,16 @@ Array = NDArray[np.float64]
 class Equilibrium(Protocol):
     """Equations of motion in a vector space of configurations, and a matrix to solve them with.
 
-    row : numbers that depend on time alone, such as the time itself; its first is the time
+    row : time inputs, numbers that depend on time alone; the first is the time
     """
 
     def residual(self, row: Array, q: Array, v: Array, a: Array) -> Array:
         """(n,) residual."""
 
-    def factorise(self, row: Array, q: Array, v: Array, a: Array, by_v: float, by_a: float) -> None:
-        """Make the iteration matrix by_a dr/da + by_v dr/dv + dr/dq anew; it may be approximate."""
+    def factorise(
+        self, row: Array, q: Array, v: Array, a: Array, dv_dq: float, da_dq: float
+    ) -> None:
+        """Make the matrix da_dq dr/da + dv_dq dr/dv + dr/dq anew; it may be approximate."""
 
     def correction(self, residual: Array) -> Array:
         """(n,) solution of the iteration matrix for a right side."""
@@ -41,7 +44,10 @@ class SecondOrderSystem(Equilibrium, Protocol):
     """Equations of motion with a place for the results."""
 
     def observe(self, row: Array, state: Array, iterations: int, size: float) -> None:
-        """Take note of a converged step: state (6, n) holds q, v, a first."""
+        """Take note of a converged step, whose residual was evaluated last.
+
+        state : (6, n) with q, v, a first
+        """
 
 
 class Method(NamedTuple):
@@ -96,7 +102,7 @@ _REFINEMENTS = 4
 def advance(
     system: SecondOrderSystem, method: Method, state: Array, rows: Array, last: Array
 ) -> tuple[int, int, float]:
-    """Take a step for each row of numbers, changing the state (6, n).
+    """Take a step for each row of time inputs, changing the state (6, n).
 
     The iteration matrix is made anew at the first step, and when corrections shrink too slowly.
 
@@ -110,52 +116,115 @@ def advance(
     alpha_m, alpha_f = (2 * rho - 1) / (rho + 1), rho / (rho + 1)
     gamma = 0.5 + alpha_f - alpha_m
     beta = 0.25 * (gamma + 0.5) ** 2
-    by_a = (1 - alpha_m) / (h**2 * beta * (1 - alpha_f))
-    by_v = gamma / (h * beta)
+    da_dq = (1 - alpha_m) / (h**2 * beta * (1 - alpha_f))
+    dv_dq = gamma / (h * beta)
+    new = np.empty((4, state.shape[1]))
+    q, v, a = new[0], new[1], new[2]
     made = False
     error = 0.0
     for number in range(len(rows)):
         row = rows[number]
-        q, v, a, blended, before = state[0], state[1], state[2], state[3], state[4]
-        next_blended = (alpha_f * a - alpha_m * blended) / (1 - alpha_m)
-        # The predictor continues the acceleration of the last three steps.
-        a_new = 3 * (a - before) + state[5]
-        q_new = q + h * v + h**2 * ((0.5 - beta) * blended + beta * next_blended) + a_new / by_a
-        v_new = v + h * ((1 - gamma) * blended + gamma * next_blended) + a_new * (by_v / by_a)
+        _predict(h, alpha_m, alpha_f, beta, gamma, dv_dq, da_dq, state, new)
         previous = np.inf
         iterations = 0
         while True:
-            r = residual(system, row, q_new, v_new, a_new)
-            size = np.max(np.abs(r)) / method.scale
-            if not np.isfinite(size):
+            r = residual(system, row, q, v, a)
+            size = _largest(r) / method.scale
+            if not math.isfinite(size):
                 return number, NOT_FINITE, np.inf
-            last[:] = r
+            _copy(r, last)
             if not made:
-                factorise(system, row, q_new, v_new, a_new, by_v, by_a)
+                factorise(system, row, q, v, a, dv_dq, da_dq)
                 made = True
             change = correction(system, r)
-            increment = np.max(np.abs(change))
+            increment = _largest(change)
             small = size <= method.relative_tolerance and increment <= method.increment_tolerance
             if small and iterations > 0:
                 break
             if iterations == method.max_iterations:
                 return number, DIVERGED, np.inf
             if increment > method.slow * previous:
-                factorise(system, row, q_new, v_new, a_new, by_v, by_a)
+                factorise(system, row, q, v, a, dv_dq, da_dq)
                 change = correction(system, r)
-                increment = np.max(np.abs(change))
+                increment = _largest(change)
             previous = increment
-            q_new = q_new - change
-            v_new = v_new - by_v * change
-            a_new = a_new - by_a * change
+            _correct(new, change, dv_dq, da_dq)
             iterations += 1
-        error = max(error, abs(beta - 1 / 6) * h**2 * np.max(np.abs(a_new - a)))
-        state[5] = before
-        state[4] = a
-        state[3] = next_blended + (1 - alpha_f) / (1 - alpha_m) * a_new
-        state[0], state[1], state[2] = q_new, v_new, a_new
+        jump = _complete(state, new, (1 - alpha_f) / (1 - alpha_m))
+        error = max(error, abs(beta - 1 / 6) * h**2 * jump)
         observe(system, row, state, iterations, size)
     return len(rows), CONVERGED, error
+
+
+# Loops, which compile several times faster than expressions of arrays.
+
+
+@kernel
+def _predict(
+    h: float,
+    alpha_m: float,
+    alpha_f: float,
+    beta: float,
+    gamma: float,
+    dv_dq: float,
+    da_dq: float,
+    state: Array,
+    new: Array,
+) -> None:
+    """Set q, v, a and the auxiliary acceleration (4, n) that a step begins with.
+
+    The predictor continues the acceleration of the last three steps.
+    """
+    for i in range(state.shape[1]):
+        a, blended = state[2, i], state[3, i]
+        next_blended = (alpha_f * a - alpha_m * blended) / (1 - alpha_m)
+        a_new = 3 * (a - state[4, i]) + state[5, i]
+        mean = (0.5 - beta) * blended + beta * next_blended
+        new[0, i] = state[0, i] + h * state[1, i] + h**2 * mean + a_new / da_dq
+        mean = (1 - gamma) * blended + gamma * next_blended
+        new[1, i] = state[1, i] + h * mean + a_new * (dv_dq / da_dq)
+        new[2, i], new[3, i] = a_new, next_blended
+
+
+@kernel
+def _largest(values: Array) -> float:
+    """Largest size of any entry; NaN if one is."""
+    largest = 0.0
+    for i in range(len(values)):
+        size = abs(values[i])
+        if not size <= largest:
+            largest = size
+            if size != size:
+                break
+    return largest
+
+
+@kernel
+def _copy(values: Array, target: Array) -> None:
+    for i in range(len(values)):
+        target[i] = values[i]
+
+
+@kernel
+def _correct(new: Array, change: Array, dv_dq: float, da_dq: float) -> None:
+    """Take a correction of the displacements off q, v and a."""
+    for i in range(len(change)):
+        new[0, i] -= change[i]
+        new[1, i] -= dv_dq * change[i]
+        new[2, i] -= da_dq * change[i]
+
+
+@kernel
+def _complete(state: Array, new: Array, ratio: float) -> float:
+    """Make the new values the state (6, n); the largest change of an acceleration."""
+    jump = 0.0
+    for i in range(state.shape[1]):
+        jump = max(jump, abs(new[2, i] - state[2, i]))
+        state[5, i] = state[4, i]
+        state[4, i] = state[2, i]
+        state[3, i] = new[3, i] + ratio * new[2, i]
+        state[0, i], state[1, i], state[2, i] = new[0, i], new[1, i], new[2, i]
+    return jump
 
 
 compiled_advance: Any = kernel(advance)
@@ -167,9 +236,9 @@ def residual(system: Equilibrium, row: Array, q: Array, v: Array, a: Array) -> A
 
 
 def factorise(
-    system: Equilibrium, row: Array, q: Array, v: Array, a: Array, by_v: float, by_a: float
+    system: Equilibrium, row: Array, q: Array, v: Array, a: Array, dv_dq: float, da_dq: float
 ) -> None:
-    system.factorise(row, q, v, a, by_v, by_a)
+    system.factorise(row, q, v, a, dv_dq, da_dq)
 
 
 def correction(system: Equilibrium, r: Array) -> Array:

@@ -18,7 +18,6 @@ import offwind_pin as ow
 from offwind_pin.analysis.foundation.equivalent import equivalent_cantilever
 from offwind_pin.analysis.foundation.pushover import Pushover
 from offwind_pin.analysis.foundation.study.study import macro_element_response
-from offwind_pin.cases.case import load_case
 from offwind_pin.cases.run import run_case
 from offwind_pin.display.figures import soil as soil_plots
 from offwind_pin.display.report import soil_report as soil_page
@@ -126,7 +125,7 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Path:
             }
         )
     )
-    run_case(load_case(case), folder / "out")
+    run_case(case, folder / "out")
     return folder / "out"
 
 

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from helpers.case_results import results
 
 import offwind_pin as ow
+from offwind_pin.analysis.drawing_data import structure_dataset
 from offwind_pin.analysis.foundation.registry import FOUNDATIONS
 from offwind_pin.analysis.foundation.study.state import soil_springs
 from offwind_pin.definitions.soil.depth_profile import DepthLine
 from offwind_pin.definitions.soil.springs import LinearModulus
 from offwind_pin.display.figures import results as plots
-from offwind_pin.display.report.case_report import render_report
-from offwind_pin.display.report.contents import CaseReport
 from offwind_pin.display.report.headline import static_increases
 from offwind_pin.display.viewer.mode_page import animate
 from offwind_pin.display.viewer.springs import foundation_springs
@@ -28,7 +28,7 @@ def systems(undamped: ow.Turbine) -> dict[str, ow.System]:
 
 
 def structure_texts(system: ow.System) -> list[str]:
-    return [text.get_text() for text in plots.structure(system).axes[0].texts]
+    return [text.get_text() for text in plots.structure(structure_dataset(system)).axes[0].texts]
 
 
 def test_each_has_a_name_of_its_own() -> None:
@@ -42,9 +42,8 @@ def test_each_has_a_name_of_its_own() -> None:
 @pytest.mark.parametrize("name", FOUNDATIONS)
 def test_report_names_the_foundation(systems: dict[str, ow.System], name: str) -> None:
     system = systems[name]
-    states = {name: ow.static(system)}
-    modes = ow.modes(system, 4)
-    page = render_report(CaseReport("try", "A try", "", system, {}, modes=modes, statics=states))
+    states = {name: (system, ow.static(system))}
+    page = results(system, statics=states, modes=ow.modes(system, 4).to_dataset()).html()
     assert foundation_name(name) in page
     below = {"apparent_fixity": "from the apparent fixity", "distributed_springs": "pile toe"}
     assert ("from the mudline to the" in page) == (name in below)
@@ -96,7 +95,7 @@ def test_picture_shows_what_holds_it(
 def test_picture_reaches_the_apparent_fixity(systems: dict[str, ow.System]) -> None:
     """The cantilever is drawn down to its foot, and the ground around it."""
     system = systems["apparent_fixity"]
-    axes = plots.structure(system).axes[0]
+    axes = plots.structure(structure_dataset(system)).axes[0]
     lowest = min(patch.get_path().vertices[:, 1].min() for patch in axes.patches[1:3])
     assert system.chain.base < system.turbine.site.mudline
     assert axes.get_ylim()[0] < system.chain.base
@@ -105,8 +104,8 @@ def test_picture_reaches_the_apparent_fixity(systems: dict[str, ow.System]) -> N
 
 def test_statics_are_told_apart(systems: dict[str, ow.System]) -> None:
     """Each foundation in a sentence that can be read."""
-    states = {name: ow.static(system) for name, system in systems.items()}
-    report = CaseReport("try", "A try", "", systems["clamped"], {}, statics=states)
+    states = {name: (system, ow.static(system)) for name, system in systems.items()}
+    report = results(systems["clamped"], statics=states).report()
     told = " ".join(static_increases(report))
     for text in (
         "with apparent fixity below the mudline than clamped at the mudline",

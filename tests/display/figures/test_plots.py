@@ -16,6 +16,7 @@ from matplotlib.text import Annotation
 from numpy.testing import assert_allclose
 
 import offwind_pin as ow
+from offwind_pin.analysis.drawing_data import soil_dataset, structure_dataset
 from offwind_pin.analysis.foundation.study.state import soil_displacement_reached, soil_springs
 from offwind_pin.definitions.turbine import RigidBodyRNA
 from offwind_pin.display.figures import results as plots
@@ -74,7 +75,7 @@ def psd_figure(**options: object) -> Figure:
 
 class TestStructure:
     def test_draws_every_element_boundary(self, coarse: ow.System) -> None:
-        axes = plots.structure(coarse).axes[0]
+        axes = plots.structure(structure_dataset(coarse)).axes[0]
         (lines,) = with_id(axes, "element-boundaries")
         drawn = np.array([segment[0, 1] for segment in lines.get_segments()])
         assert_allclose(drawn, coarse.chain.boundary)
@@ -83,12 +84,14 @@ class TestStructure:
         assert widths[-1] == pytest.approx(5.5)
 
     def test_is_to_scale(self, coarse: ow.System) -> None:
-        assert all(axes.get_aspect() == 1.0 for axes in plots.structure(coarse).axes)
+        assert all(
+            axes.get_aspect() == 1.0 for axes in plots.structure(structure_dataset(coarse)).axes
+        )
 
     def test_has_a_spring_on_either_side_of_every_node(self, coarse: ow.System) -> None:
         soil = soil_springs(coarse)
         assert soil is not None
-        for axes in plots.structure(coarse).axes:
+        for axes in plots.structure(structure_dataset(coarse)).axes:
             (lines,) = with_id(axes, "soil-springs")
             springs = lines.get_segments()
             heights = {round(float(spring[0, 1]), 6) for spring in springs}
@@ -96,7 +99,7 @@ class TestStructure:
             assert heights == {round(float(height), 6) for height in soil.height}
 
     def test_names_the_main_heights(self, coarse: ow.System) -> None:
-        said = " ".join(texts(plots.structure(coarse).axes[0]))
+        said = " ".join(texts(plots.structure(structure_dataset(coarse)).axes[0]))
         for height in ("+115.63 m", "+10.00 m", "0 m", f"{MINUS}30.00 m", f"{MINUS}75.00 m"):
             assert height in said
 
@@ -107,7 +110,7 @@ class TestStructure:
         self, undamped: ow.Turbine, foundation: str, sign: str
     ) -> None:
         system = ow.build(undamped, foundation, elements=6)
-        figure = plots.structure(system)
+        figure = plots.structure(structure_dataset(system))
         assert len(figure.axes) == 1
         assert not with_id(figure.axes[0], "soil-springs")
         assert any(sign in text for text in texts(figure.axes[0]))
@@ -115,7 +118,9 @@ class TestStructure:
 
     def test_dry_structures_have_no_water(self, undamped: ow.Turbine) -> None:
         wet, dry = (
-            plots.structure(ow.build(undamped, "clamped", sea, elements=6)).axes[0]
+            plots.structure(structure_dataset(ow.build(undamped, "clamped", sea, elements=6))).axes[
+                0
+            ]
             for sea in (ow.StillWater(), None)
         )
         assert len(wet.collections) == len(dry.collections) + 1
@@ -129,7 +134,9 @@ class TestStructure:
             inertia=((1e7, 0, 0), (0, 1e7, 0), (0, 0, 1e7)),
         )
         turbine = undamped.model_copy(update={"rna": body})
-        said = texts(plots.structure(ow.build(turbine, "clamped", elements=6)).axes[0])
+        said = texts(
+            plots.structure(structure_dataset(ow.build(turbine, "clamped", elements=6))).axes[0]
+        )
         assert any("500 t" in text and f"x = {MINUS}3.00" in text for text in said)
 
 
@@ -315,7 +322,7 @@ class TestSoilCurves:
         soil = soil_springs(coarse)
         assert soil is not None
         reached = np.linspace(0.02, 0.001, len(soil.height))
-        axes = plots.p_y_curves(soil, -30.0, reached=reached).axes[0]
+        axes = plots.p_y_curves(soil_dataset(soil, -30.0, reached)).axes[0]
         dots = [line for line in axes.lines if line.get_marker() == "o"]
         resistance = soil.curves.resistance(reached) / 1e6
         assert len(dots) == 5
@@ -327,7 +334,7 @@ class TestSoilCurves:
     def test_without_displacements_there_are_no_dots(self, coarse: ow.System) -> None:
         soil = soil_springs(coarse)
         assert soil is not None
-        axes = plots.p_y_curves(soil, -30.0).axes[0]
+        axes = plots.p_y_curves(soil_dataset(soil, -30.0)).axes[0]
         assert [line.get_marker() for line in axes.lines] == ["None"] * 5
         assert axes.get_xlabel() == "lateral displacement y, mm"
         assert axes.get_ylabel() == "soil resistance p, MN/m"

@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
+from helpers.case_results import Results, results
 from helpers.waters import upright
 from matplotlib.axes import Axes
 from numpy.testing import assert_allclose
 
 import offwind_pin as ow
+from offwind_pin.analysis import sea_data
+from offwind_pin.analysis.drawing_data import structure_dataset
 from offwind_pin.base.definition import Array
 from offwind_pin.display.figures import results as plots
 from offwind_pin.display.figures import sea as sea_plots
-from offwind_pin.display.figures import sea_data
 from offwind_pin.display.figures.style import to_svg
-from offwind_pin.display.report.case_report import render_report
-from offwind_pin.display.report.contents import CaseReport
 from offwind_pin.display.report.sea import sea_pictures
 from offwind_pin.loads.sea.hydrodynamic_loads import Waters
 from offwind_pin.loads.sea.sea import Sea
@@ -34,9 +32,9 @@ def sea() -> ow.IrregularWaves:
 
 
 @pytest.fixture(scope="module")
-def report(coarse: ow.System) -> CaseReport:
+def run(coarse: ow.System) -> Results:
     histories = ow.simulate(coarse, 20.0, 0.05, ramp=4.0)
-    return CaseReport("sea", "Sea", "", coarse, {}, histories=histories)
+    return results(coarse, root=histories, waves=sea_data.waves_dataset(coarse, histories, 200.0))
 
 
 def airy(turbine: ow.Turbine, z: Array) -> Array:
@@ -328,26 +326,26 @@ class TestFigures:
 
     def test_the_water_level_is_drawn_where_it_is(self, undamped: ow.Turbine) -> None:
         system = ow.build(undamped, "clamped", ow.StillWater(water_level=2.5), elements=6)
-        axes = plots.structure(system).axes[0]
+        axes = plots.structure(structure_dataset(system)).axes[0]
         assert any("+2.50 m  water level" in text for text in texts(axes))
         assert any(np.allclose(line.get_ydata(), 2.5) for line in axes.lines)
         assert not any(np.allclose(line.get_ydata(), 0.0) for line in axes.lines)
 
 
 class TestSection:
-    def test_four_pictures_of_an_irregular_sea(self, report: CaseReport) -> None:
-        names = [picture.name for picture in sea_pictures(report)]
+    def test_four_pictures_of_an_irregular_sea(self, run: Results) -> None:
+        names = [picture.name for picture in sea_pictures(run.report())]
         assert names == ["sea-elevation", "sea-kinematics", "sea-spectrum", "sea-forces"]
-        text = render_report(report)
+        text = run.html()
         assert '<section id="sea">' in text
         assert all(f'class="figure-{name}"' in text for name in names)
         section = text[text.index('<section id="sea">') : text.index('<section id="histories">')]
         assert len(section) < 250_000
 
-    def test_captions_tell_the_instants_of_the_results(self, report: CaseReport) -> None:
-        data = report.analysed
+    def test_captions_tell_the_instants_of_the_results(self, run: Results) -> None:
+        data = run.report().analysed
         assert data is not None
-        words = {picture.name: picture.caption for picture in sea_pictures(report)}
+        words = {picture.name: picture.caption for picture in sea_pictures(run.report())}
         crest = float(data.time[int(np.argmax(data.wave_elevation.values))])
         assert f"at {crest:.1f} s" in words["sea-kinematics"]
         assert "without stretching" in words["sea-kinematics"]
@@ -356,17 +354,41 @@ class TestSection:
         spread = 4 * float(data.wave_elevation.std())
         assert f"{spread:.3g}"[:4] in words["sea-elevation"]
 
+    def test_data_are_those_of_the_sea(self, run: Results, coarse: ow.System) -> None:
+        """Read back from the tree, profiles, forces and spectra are those computed directly."""
+        data = run.report().part("waves")
+        assert data is not None
+        waters, sea = coarse.waters, coarse.sea
+        assert waters is not None
+        assert sea is not None
+        shown = sea_data.profiles_of(data)
+        direct = sea_data.profiles(waters, sea, np.array([profile.time for profile in shown]))
+        for found, expected in zip(shown, direct, strict=True):
+            for name in ("height", "velocity", "acceleration", "current"):
+                assert_allclose(getattr(found, name), getattr(expected, name), rtol=1e-12)
+        along = sea_data.wave_direction(waters.surface.waves)
+        worst = sea_data.worst_force_of(data)
+        expected = sea_data.force_per_length(waters.wave_force(), worst.time, along)
+        assert_allclose(worst.total, expected.total)
+        frequency, density = sea_data.spectrum_of(data, "target") or (None, None)
+        target = sea_data.target_density(sea, 30.0, coarse.turbine.site.gravity)
+        assert target is not None
+        assert_allclose(density, target(frequency))
+
     @pytest.mark.parametrize("calm", [None, ow.StillWater()])
     def test_nothing_without_waves(
-        self, undamped: ow.Turbine, report: CaseReport, calm: Sea | None
+        self, undamped: ow.Turbine, run: Results, calm: Sea | None
     ) -> None:
-        other = replace(report, system=ow.build(undamped, "clamped", calm, elements=6))
-        assert sea_pictures(other) == []
-        assert 'id="sea"' not in render_report(other)
+        system = ow.build(undamped, "clamped", calm, elements=6)
+        assert sea_data.waves_dataset(system, run.root, 200.0) is None
+        other = results(system, root=run.root)
+        assert sea_pictures(other.report()) == []
+        assert 'id="sea"' not in other.html()
 
     def test_regular_waves_have_no_spectrum(self, undamped: ow.Turbine) -> None:
         system = ow.build(undamped, "clamped", ow.RegularWaves(HEIGHT, PERIOD), elements=6)
         histories = ow.simulate(system, 20.0, 0.05, ramp=4.0)
-        report = CaseReport("r", "R", "", system, {}, histories=histories)
+        waves = sea_data.waves_dataset(system, histories, 200.0)
+        report = results(system, root=histories, waves=waves).report()
         names = [picture.name for picture in sea_pictures(report)]
         assert names == ["sea-elevation", "sea-kinematics", "sea-forces"]

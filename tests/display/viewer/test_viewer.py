@@ -14,9 +14,9 @@ import xarray as xr
 from numpy.testing import assert_allclose
 
 import offwind_pin as ow
+from offwind_pin.analysis.drawing_data import modes_dataset, static_dataset
 from offwind_pin.base.mode_labels import mode_family
 from offwind_pin.base.whole_files import write_netcdf
-from offwind_pin.cases.run import modes_to_dataset, static_to_dataset
 from offwind_pin.display.viewer import stills as pictures
 from offwind_pin.display.viewer.history_frames import frames
 from offwind_pin.display.viewer.history_page import ARROW_SHARE, TOP_COLOUR
@@ -27,7 +27,7 @@ from offwind_pin.display.viewer.view import View
 
 @pytest.fixture(scope="module")
 def modal(coupled_wet: ow.System) -> xr.Dataset:
-    return modes_to_dataset(coupled_wet, ow.modes(coupled_wet, 8))
+    return modes_dataset(coupled_wet, ow.modes(coupled_wet, 8))
 
 
 @pytest.fixture(scope="module")
@@ -241,7 +241,7 @@ class TestView:
         assert View(modal).window() == (0.0, 8.0)
 
     def test_a_state_does_not_move(self, coupled_wet: ow.System) -> None:
-        state = static_to_dataset(coupled_wet, ow.static(coupled_wet))
+        state = static_dataset(coupled_wet, ow.static(coupled_wet))
         with pytest.raises(ow.InputError, match="Nothing moves"):
             View(state)
 
@@ -288,7 +288,7 @@ class TestView:
         assert "<img src=x>" not in page
 
     def test_torsion_and_dry(self, clamped_dry: ow.System, tmp_path: Path) -> None:
-        data = modes_to_dataset(clamped_dry, ow.modes(clamped_dry, 6))
+        data = modes_dataset(clamped_dry, ow.modes(clamped_dry, 6))
         page = View(data, labels=["T1"]).page()
         assert "still water" not in page
         assert re.search(r'"first": \[(\d)\]', page)[1] == str(shapes(data).index("T1"))  # type: ignore[index]

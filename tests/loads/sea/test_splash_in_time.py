@@ -92,7 +92,7 @@ def test_compiled_chain_and_pinocchio_agree(system: ow.System) -> None:
     rng = np.random.default_rng(3)
     for time in (0.3, 2.0, 3.7):
         q, v, a = rng.normal(size=(3, system.nv)) * 1e-2
-        row = chain.rows(np.array([time]))[0]
+        row = chain.time_inputs(np.array([time]))[0]
         found, expected = chain.residual(row, q, v, a), equations.residual(time, q, v, a)
         assert relative_difference(found, expected) < 1e-11
 

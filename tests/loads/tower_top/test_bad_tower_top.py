@@ -13,7 +13,6 @@ import yaml
 from helpers.openfast_files import UNITS, YAW_BEARING, some_load, write_out, write_outb
 
 import offwind_pin as ow
-from offwind_pin.cases.case import load_case
 from offwind_pin.cases.run import run_case
 
 CASE: dict[str, Any] = {
@@ -104,7 +103,7 @@ def folder(tmp_path: Path) -> Path:
 
 def run(folder: Path, **changes: Any) -> dict[str, Any]:
     (folder / "case.yaml").write_text(yaml.safe_dump(CASE | changes))
-    return run_case(load_case(folder / "case.yaml"), folder / "out")
+    return run_case(folder / "case.yaml", folder / "out")
 
 
 @pytest.mark.parametrize("fault", LOAD_FAULTS)

@@ -308,11 +308,11 @@ def test_two_implementations_agree_above_the_top(system: ow.System, disc: RotorD
     bare = CompiledChain(system, [], ramp_time=0.0)
     for seed in range(3):
         state = random_state(system, seed)
-        row = chain.rows(np.array([0.7]))[0]
+        row = chain.time_inputs(np.array([0.7]))[0]
         ours = chain.residual(row, state.q, state.v, state.a).copy()
         theirs = equations.residual(0.7, state.q, state.v, state.a)
         assert relative_difference(ours, theirs) < 1e-11
-        none = bare.residual(bare.rows(np.array([0.7]))[0], state.q, state.v, state.a)
+        none = bare.residual(bare.time_inputs(np.array([0.7]))[0], state.q, state.v, state.a)
         assert relative_difference(ours - none, theirs - none) < 1e-6
         assert np.max(np.abs(ours - none)) > 1e6
         _, damping = equations.tangents(0.7, state.q, state.v, state.a)

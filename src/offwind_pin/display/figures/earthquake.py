@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
+import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
@@ -20,7 +21,6 @@ from offwind_pin.display.figures.style import (
     thin,
 )
 from offwind_pin.display.wording import quantity
-from offwind_pin.loads.earthquake.description import EarthquakeDescription
 
 _AXES = {"x": BLUE, "y": VERMILLION, "z": GREEN}
 _COLUMNS = 900
@@ -28,22 +28,26 @@ _TICKS = (0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10)
 
 
 @styled
-def response_spectrum_plot(earthquake: EarthquakeDescription) -> Figure:
+def response_spectrum_plot(earthquake: xr.Dataset) -> Figure:
     """Components of the accelerogram over time, and their pseudo-accelerations over period.
 
     Components that are zero throughout are left out. Dashed lines are the structure's periods.
+
+    Parameters
+    ----------
+    earthquake : group ``earthquake`` of a case's results
     """
-    shown = [i for i in range(3) if np.any(earthquake.acceleration[:, i])]
+    time, acceleration = (earthquake[name].to_numpy() for name in ("time", "acceleration"))
+    shown = [i for i in range(3) if np.any(acceleration[:, i])]
     figure = Figure(figsize=(FULL_WIDTH, 3.4 + 1.1 * max(1, len(shown))))
     panels = figure.subplots(
         len(shown) + 1, 1, squeeze=False, height_ratios=[*(1.0 for _ in shown), 3.4]
     )[:, 0]
     names = tuple(_AXES)
-    largest = float(np.max(np.abs(earthquake.acceleration), initial=1e-12))
+    largest = float(np.max(np.abs(acceleration), initial=1e-12))
     for axes, i in zip(panels[:-1], shown, strict=True):
-        line = thin(earthquake.time, earthquake.acceleration[:, i], _COLUMNS)
-        axes.plot(*line, color=_AXES[names[i]], lw=0.8)
-        axes.set_xlim(earthquake.time[0], earthquake.time[-1])
+        axes.plot(*thin(time, acceleration[:, i], _COLUMNS), color=_AXES[names[i]], lw=0.8)
+        axes.set_xlim(time[0], time[-1])
         axes.set_ylim(-1.08 * largest, 1.08 * largest)
         axes.set_ylabel(f"{names[i]}, m/s²")
         axes.grid(axis="y")
@@ -56,12 +60,12 @@ def response_spectrum_plot(earthquake: EarthquakeDescription) -> Figure:
     return figure
 
 
-def _draw_spectrum(axes: Axes, earthquake: EarthquakeDescription, shown: list[int]) -> None:
-    spectrum, names = earthquake.spectrum, tuple(_AXES)
+def _draw_spectrum(axes: Axes, earthquake: xr.Dataset, shown: list[int]) -> None:
+    period, names = earthquake["period"].to_numpy(), tuple(_AXES)
     for i in shown:
-        values = spectrum.pseudo_acceleration[:, i]
-        axes.semilogx(spectrum.period, values, color=_AXES[names[i]], label=names[i], zorder=3)
-    low, high = spectrum.period[[0, -1]]
+        values = earthquake["pseudo_acceleration"].to_numpy()[:, i]
+        axes.semilogx(period, values, color=_AXES[names[i]], label=names[i], zorder=3)
+    low, high = period[[0, -1]]
     axes.set_xlim(low, high)
     axes.set_ylim(bottom=0)
     axes.xaxis.set_major_locator(FixedLocator(_TICKS))
@@ -70,13 +74,14 @@ def _draw_spectrum(axes: Axes, earthquake: EarthquakeDescription, shown: list[in
     axes.grid()
     axes.set_xlabel("period, s")
     axes.set_ylabel("pseudo-acceleration, m/s²")
-    damped = quantity(100 * spectrum.damping_ratio, "%", 2)
+    damped = quantity(100 * float(earthquake.attrs["damping_ratio"]), "%", 2)
     axes.set_title(f"Response spectrum, {damped} damped", pad=34)
     if shown:
         axes.legend(
             title="component", loc="upper left", bbox_to_anchor=(1.01, 1.0), alignment="left"
         )
-    _mark_periods(axes, {k: t for k, t in earthquake.periods.items() if low <= t <= high})
+    of_modes = zip(earthquake["mode"].to_numpy(), earthquake["mode_period"].to_numpy(), strict=True)
+    _mark_periods(axes, {str(name): float(t) for name, t in of_modes if low <= t <= high})
 
 
 def _mark_periods(axes: Axes, periods: Mapping[str, float]) -> None:

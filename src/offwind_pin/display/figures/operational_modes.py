@@ -3,40 +3,47 @@
 from __future__ import annotations
 
 import numpy as np
+import xarray as xr
 from matplotlib.figure import Figure
 
 from offwind_pin.display.figures.style import BLUE, FULL_WIDTH, MUTED, VERMILLION, styled
-from offwind_pin.signal.modal_identification.identify import IdentifiedModes, OperationalModes
+from offwind_pin.signal.modal_identification.identify import OperationalModes
 
 _BAND = (0.05, 3.0)
 """Hz that are shown."""
 
 
 @styled
-def identified_plot(modes: IdentifiedModes) -> Figure:
-    """Singular values over frequency, and the normalised shapes over height."""
+def identified_plot(data: xr.Dataset) -> Figure:
+    """Singular values over frequency, and the normalised shapes over height.
+
+    Parameters
+    ----------
+    data : group ``identified_modes`` of a case's results
+    """
     figure = Figure(figsize=(FULL_WIDTH, 0.5 * FULL_WIDTH), layout="constrained")
     values, shapes = figure.subplots(1, 2, width_ratios=[1.5, 1])
-    found = modes.found
-    inside = (found.frequencies > _BAND[0]) & (found.frequencies < _BAND[1])
+    lines, height = data["line"].to_numpy(), data["height"].to_numpy()
+    inside = (lines > _BAND[0]) & (lines < _BAND[1])
     for number, color in ((1, MUTED), (0, BLUE)):
-        level = 10 * np.log10(found.singular_values[inside, number])
+        level = 10 * np.log10(data["singular_value"].to_numpy()[inside, number])
         values.plot(
-            found.frequencies[inside],
+            lines[inside],
             level,
             color=color,
             linewidth=0.8,
             label=("first", "second")[number],
         )
     top = values.get_ylim()[1]
-    for i, (label, color) in enumerate(zip(modes.label, (BLUE, VERMILLION), strict=True)):
-        at = float(found.frequency_hz[i])
+    for label, color in zip(data["mode"].to_numpy(), (BLUE, VERMILLION), strict=True):
+        mode = data.sel(mode=label)
+        at = float(mode["frequency"])
         values.axvline(at, color=color, linewidth=0.8, linestyle=":")
         values.annotate(
             f"{label} {at:.3f} Hz", (at, top), (3, -3), textcoords="offset points", va="top"
         )
-        shapes.plot(modes.shape[i], modes.height, color=color, linewidth=1.0, label=label)
-        shapes.plot(found.shape[i], modes.height, "o", color=color, markersize=3.5)
+        shapes.plot(mode["computed_shape"], height, color=color, linewidth=1.0, label=label)
+        shapes.plot(mode["shape"], height, "o", color=color, markersize=3.5)
     values.set_xlim(0, _BAND[1])
     values.set_xlabel("frequency, Hz")
     values.set_ylabel("singular values, dB of (m/s²)²/Hz")

@@ -34,7 +34,6 @@ from offwind_pin.display.figures.style import (
     thin,
 )
 from offwind_pin.display.wording import DASH, fixed, foundation_name
-from offwind_pin.loads.soil.springs.elastic import SoilSprings
 from offwind_pin.results.reading import analysed
 
 __all__ = [
@@ -54,9 +53,6 @@ _COLUMNS = 900
 """Columns of a time history's picture, about one for each pixel."""
 
 _ZOOM = 60.0
-_SHOWN_DEPTHS = (1 / 15, 2 / 15, 1 / 4, 1 / 2, 3 / 4)
-"""p-y curves shown, by depth over embedded length."""
-
 _BAND = "#f6ead0"
 _HEIGHT_LABEL = "height z, m"
 
@@ -363,30 +359,28 @@ def section_load_envelope(histories: xr.Dataset) -> Figure:
 
 
 @styled
-def p_y_curves(soil: SoilSprings, mudline: float, *, reached: Array | None = None) -> Figure:
+def p_y_curves(data: xr.Dataset) -> Figure:
     """p-y curves at five depths, closer together near the mudline where the pile moves most.
 
-    With ``reached``, the picture shows the part of the curves that was used, and the dots on them
-    are the largest displacement there.
+    Where displacements are known, the picture shows the part of the curves that was used, and the
+    dots on them are the largest displacement there.
 
     Parameters
     ----------
-    mudline : height in m
-    reached : (n,) lateral displacement of each node in m, or None
+    data : of :func:`offwind_pin.analysis.drawing_data.soil_dataset`
     """
-    depth = mudline - soil.height
-    nodes = np.unique(np.searchsorted(depth, np.array(_SHOWN_DEPTHS) * depth[-1] - 1e-9))
-    end = 0.05 if reached is None else max(1.05 * float(np.max(reached[nodes])), 1e-4)
-    y = np.linspace(0, end, 201)
-    resistance = np.array([soil.curves.resistance(np.full(len(depth), value)) for value in y])
+    y, end = data["y"].to_numpy(), float(data.attrs["shown_end_m"])
+    depth = data["depth"].to_numpy()
+    drawn = y <= end
+    reached = data["reached"].to_numpy() if "reached" in data else None
     figure = Figure(figsize=(0.78 * FULL_WIDTH, 3.9))
     axes = figure.subplots()
     used = 0.0
-    for color, node in zip(PALETTE, nodes, strict=False):
-        p = resistance[:, node] / MEGA
-        axes.plot(1e3 * y, p, color=color, label=f"{depth[node]:.4g} m", zorder=3)
+    for color, node in zip(PALETTE, np.atleast_1d(data.attrs["shown_nodes"]), strict=False):
+        p = data["resistance"][node].to_numpy()[drawn] / MEGA
+        axes.plot(1e3 * y[drawn], p, color=color, label=f"{depth[node]:.4g} m", zorder=3)
         if reached is not None:
-            at = float(np.interp(reached[node], y, p))
+            at = float(np.interp(reached[node], y[drawn], p))
             used = max(used, at)
             axes.plot(1e3 * reached[node], at, "o", ms=6, color=color, zorder=4, clip_on=False)
     axes.set_xlim(0, 1e3 * end)

@@ -1,7 +1,7 @@
 """Figures of a sea and its loads: elevation, profiles over height, spectrum, force over height.
 
 Every function returns a ``matplotlib.figure.Figure`` and leaves matplotlib's settings alone. The
-numbers come from :mod:`offwind_pin.display.figures.sea_data`.
+numbers come from :mod:`offwind_pin.analysis.sea_data`.
 """
 
 from __future__ import annotations
@@ -14,8 +14,14 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from offwind_pin.analysis.sea_data import (
+    INSTANTS,
+    ForcePerLength,
+    Profile,
+    Spectrum,
+    frequency_range,
+)
 from offwind_pin.base.definition import Array
-from offwind_pin.display.figures.sea_data import Density, ForcePerLength, Profile
 from offwind_pin.display.figures.style import (
     BLUE,
     FULL_WIDTH,
@@ -34,10 +40,10 @@ KILO = 1e3
 _COLUMNS = 900
 ZOOM = 60.0
 """s about the highest crest that are shown enlarged."""
-_STYLES: tuple[tuple[str, str, Any], ...] = (
-    ("crest", BLUE, "-"),
-    ("zero crossing before it", VERMILLION, (0, (6, 2))),
-    ("trough after it", GREEN, (0, (2, 1.5))),
+_STYLES: tuple[tuple[str, Any], ...] = (
+    (BLUE, "-"),
+    (VERMILLION, (0, (6, 2))),
+    (GREEN, (0, (2, 1.5))),
 )
 _NAMES = 0.3
 """Of a panel's breadth, kept for the names of the levels."""
@@ -45,8 +51,6 @@ _TOTAL = "#8b93a1"
 _HEIGHT_LABEL = "height z, m"
 _WIDE_TITLE, _NARROW_TITLE = 85, 55
 """Characters in a line above a panel of full width, and above one that has another beside it."""
-_SHOWN_DEPTH = 5e-3
-"""A spectrum is shown where it exceeds this share of its largest value."""
 
 
 @styled
@@ -140,7 +144,7 @@ def kinematics(
     current = shown[0].current @ along
     if np.any(shown[0].current):
         speed.plot(current, shown[0].height, color=MUTED, lw=1.2, label="current alone", zorder=2)
-    for (name, color, dashes), profile in zip(_STYLES, shown, strict=False):
+    for name, (color, dashes), profile in zip(INSTANTS, _STYLES, shown, strict=False):
         style: dict[str, Any] = {"color": color, "ls": dashes, "zorder": 3}
         label = f"{name}, {fixed(round(profile.elevation, 2) + 0.0, 2, sign=True)} m"
         for axes, values in ((speed, profile.velocity), (push, profile.acceleration)):
@@ -161,27 +165,23 @@ def kinematics(
 
 @styled
 def elevation_spectrum(
-    run: tuple[Array, Array] | None,
-    components: tuple[Array, Array] | None,
-    target: Density | None,
+    run: Spectrum | None,
+    components: Spectrum | None,
+    target: Spectrum | None,
     *,
     title: str = "",
 ) -> Figure:
-    """Spectrum of the surface: of the run, of all components, and the one that was asked for.
+    """Spectrum of the surface: of the run, of all components, and the target.
 
     Parameters
     ----------
     run : frequencies (f,) in Hz and densities (f,) in m2/Hz of the elevation in the run
-    components : the same of the waves as they were made, in bands
-    target : density in m2/Hz of frequencies in Hz
+    components : the same of the generated waves, in bands
+    target : the same of the spectrum that the waves were generated from
     """
     figure = Figure(figsize=(FULL_WIDTH, 3.6))
     axes = figure.subplots()
-    given = [pair for pair in (run, components) if pair is not None]
-    frequency, density = (np.concatenate(parts) for parts in zip(*given, strict=True))
-    # A quiet run may lie below all of this, and so have no frequency of its own in it
-    high = frequency[density > _SHOWN_DEPTH * density.max()]
-    start, end = float(high.min()), float(high.max())
+    _, end = frequency_range(run, components)
     if run is not None:
         frequency, density = run
         shown = (frequency > 0) & (frequency <= 1.05 * end)
@@ -198,10 +198,8 @@ def elevation_spectrum(
         }
         axes.plot(frequency[shown], density[shown], "o", **style)
     if target is not None:
-        frequency = np.linspace(max(start / 2, end / 1000), 1.05 * end, 400)
-        density = target(frequency)
-        dashed: dict[str, Any] = {"ls": (0, (6, 2)), "zorder": 5, "label": "asked for"}
-        axes.plot(frequency, density, color=VERMILLION, **dashed)
+        dashed: dict[str, Any] = {"ls": (0, (6, 2)), "zorder": 5, "label": "target"}
+        axes.plot(*target, color=VERMILLION, **dashed)
     axes.set_xlim(0, 1.05 * end)
     axes.set_ylim(0, None)
     axes.set_xlabel("frequency, Hz")

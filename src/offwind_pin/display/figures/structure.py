@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import numpy as np
+import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Polygon
 
-from offwind_pin.analysis.foundation.study.state import soil_springs
 from offwind_pin.base.definition import Array
 from offwind_pin.definitions.rotor_nacelle import rotor_apex, rotor_radius
-from offwind_pin.definitions.turbine import Member, RotorNacelleRNA
+from offwind_pin.definitions.turbine import RotorNacelleRNA
 from offwind_pin.display.figures.style import (
     BLUE,
     GREEN,
@@ -23,10 +23,8 @@ from offwind_pin.display.figures.style import (
     spread,
     styled,
 )
+from offwind_pin.display.rotor_nacelle import rotor_nacelle
 from offwind_pin.display.wording import TIMES, base_name, fixed
-from offwind_pin.dynamics.system import System
-from offwind_pin.loads.soil.springs.elastic import SoilSprings
-from offwind_pin.structure.section import outer_diameter
 
 _SIDES = (-44.0, 60.0)
 """m shown on the windward side, and on the lee side where the labels stand."""
@@ -38,35 +36,58 @@ _GROUND_LINE = "#8a6d3b"
 
 
 @styled
-def structure(system: System) -> Figure:
+def structure(data: xr.Dataset) -> Figure:
     """The structure in the plane of wind and waves, to scale.
 
     Section outline, element boundaries (lines across), foundation, mudline, mean water level,
     rotor-nacelle assembly with its centre of mass, and the main heights. Distributed springs are
     shown again in a panel with the embedded pile enlarged, one for each node.
+
+    Parameters
+    ----------
+    data : of :func:`offwind_pin.analysis.drawing_data.structure_dataset`
     """
-    soil = soil_springs(system)
-    figure = Figure(figsize=(7.6 if soil else 4.4, 7.8))
-    if soil is None:
+    springs = data["spring_height"].to_numpy() if "spring_height" in data else None
+    base, top, mudline = _levels(data)
+    figure = Figure(figsize=(4.4 if springs is None else 7.6, 7.8))
+    if springs is None:
         whole, enlarged = figure.subplots(), None
     else:
         whole, enlarged = figure.subplots(1, 2, width_ratios=(1, 1.1))
-    low = system.chain.base - 8
-    high = system.chain.top + _SHOWN_BLADE + 16
-    _frame(whole, _SIDES, (low, high))
-    _surroundings(whole, system)
-    _tower_and_pile(whole, system)
-    _rotor_nacelle(whole, system)
-    _foundation(whole, system, soil, reach=9.0)
-    _label_heights(whole, system)
+    _frame(whole, _SIDES, (base - 8, top + _SHOWN_BLADE + 16))
+    _surroundings(whole, data)
+    _tower_and_pile(whole, data)
+    _rotor_nacelle(whole, data)
+    _foundation(whole, data, springs, reach=9.0)
+    _label_heights(whole, data)
     whole.set_ylabel("height z, m")
-    if enlarged is not None and soil is not None:
-        _frame(enlarged, (-15, 15), (system.chain.base - 5, system.turbine.site.mudline + 6))
-        _surroundings(enlarged, system)
-        _tower_and_pile(enlarged, system)
-        _foundation(enlarged, system, soil, reach=8.0)
-        enlarged.set_title(f"The embedded pile, {len(soil.height)} springs", fontsize=9.5)
+    if enlarged is not None and springs is not None:
+        _frame(enlarged, (-15, 15), (base - 5, mudline + 6))
+        _surroundings(enlarged, data)
+        _tower_and_pile(enlarged, data)
+        _foundation(enlarged, data, springs, reach=8.0)
+        enlarged.set_title(f"The embedded pile, {len(springs)} springs", fontsize=9.5)
     return figure
+
+
+def _levels(data: xr.Dataset) -> tuple[float, float, float]:
+    """Heights of base, yaw bearing and mudline in m."""
+    base, top, mudline = (float(data.attrs[f"{n}_m"]) for n in ("base", "yaw_bearing", "mudline"))
+    return base, top, mudline
+
+
+def _wet(data: xr.Dataset) -> bool:
+    return data.attrs["sea"] != "dry"
+
+
+def _members(data: xr.Dataset) -> dict[str, tuple[Array, Array]]:
+    """Heights and outer diameters of the stations of each member, in m."""
+    name = data["station_member"].to_numpy()
+    height, diameter = data["station_height"].to_numpy(), data["station_diameter"].to_numpy()
+    return {
+        str(member): (height[name == member], diameter[name == member])
+        for member in dict.fromkeys(name.tolist())
+    }
 
 
 def _frame(axes: Axes, x: tuple[float, float], z: tuple[float, float]) -> None:
@@ -76,50 +97,45 @@ def _frame(axes: Axes, x: tuple[float, float], z: tuple[float, float]) -> None:
     axes.set_xlabel("x (downwind), m")
 
 
-def _surroundings(axes: Axes, system: System) -> None:
+def _surroundings(axes: Axes, data: xr.Dataset) -> None:
     """Ground and water, as far as the picture goes."""
     (left, right), (low, _) = axes.get_xlim(), axes.get_ylim()
-    mudline = system.turbine.site.mudline
+    _, _, mudline = _levels(data)
     axes.axhspan(low, mudline, color=SOIL, lw=0, zorder=0)
     axes.axhline(mudline, color=_GROUND_LINE, lw=1.2, zorder=1)
     x = np.linspace(left, right, 200)
-    level = _water_level(system)
+    level = _water_level(data)
     surface = np.full_like(x, level)
-    if system.waters is not None and system.waters.surface.waves is not None:
+    if data.attrs["surface"] == "waves":
         surface += 0.7 * np.cos(2 * np.pi * x / 20)
-    if system.sea is not None:
+    if _wet(data):
         axes.fill_between(x, mudline, surface, color=WATER, lw=0, zorder=0)
         axes.plot(x, surface, color=BLUE, lw=1, zorder=1)
     axes.axhline(level, color=BLUE, lw=0.8, ls=(0, (5, 3)), zorder=1)
 
 
-def _water_level(system: System) -> float:
-    return 0.0 if system.sea is None else system.sea.water_level
+def _water_level(data: xr.Dataset) -> float:
+    return float(data.attrs.get("water_level_m", 0.0))
 
 
-def _tower_and_pile(axes: Axes, system: System) -> None:
-    chain = system.chain
-    for member in system.turbine.members:
-        stations = [s for s in member.stations if s.z >= chain.base]
-        if not stations:
-            continue
-        heights = np.array([s.z for s in stations])
-        radii = np.array([s.diameter for s in stations]) / 2
-        if heights[0] > chain.base > member.bottom:
-            heights = np.concatenate([[chain.base], heights])
-            radii = np.concatenate([outer_diameter(system.turbine, heights[:1]) / 2, radii])
+def _tower_and_pile(axes: Axes, data: xr.Dataset) -> None:
+    for heights, diameters in _members(data).values():
+        radii = diameters / 2
         outline = np.column_stack(
             [np.concatenate([-radii, radii[::-1]]), np.concatenate([heights, heights[::-1]])]
         )
         axes.add_patch(Polygon(outline, facecolor=STEEL, edgecolor=INK, lw=1, zorder=3))
-    radius = outer_diameter(system.turbine, chain.boundary) / 2
-    lines = axes.hlines(chain.boundary, -radius, radius, color=INK, lw=0.5, zorder=4)
+    boundary = data["boundary_height"].to_numpy()
+    radius = data["boundary_diameter"].to_numpy() / 2
+    lines = axes.hlines(boundary, -radius, radius, color=INK, lw=0.5, zorder=4)
     lines.set_gid("element-boundaries")
 
 
-def _rotor_nacelle(axes: Axes, system: System) -> None:
-    top, rna = system.chain.top, system.turbine.rna
-    center = system.chain.rna.center_of_mass
+def _rotor_nacelle(axes: Axes, data: xr.Dataset) -> None:
+    _, top, _ = _levels(data)
+    rna = rotor_nacelle(data)
+    center = data["rotor_nacelle_center_of_mass"].to_numpy()
+    mass = float(data["rotor_nacelle_mass"])
     if isinstance(rna, RotorNacelleRNA):
         apex, shaft = rotor_apex(rna)
         _blades(axes, rna, top, apex, shaft)
@@ -133,7 +149,7 @@ def _rotor_nacelle(axes: Axes, system: System) -> None:
     axes.add_patch(Polygon(outline, facecolor="white", edgecolor=INK, lw=1, zorder=3))
     _center_of_mass(axes, float(center[0]), top + float(center[2]))
     axes.annotate(
-        f"rotor-nacelle assembly\n{system.chain.rna.mass / 1e3:,.0f} t, centre of mass\n"
+        f"rotor-nacelle assembly\n{mass / 1e3:,.0f} t, centre of mass\n"
         f"at x = {_signed(center[0])}, z = {_signed(top + center[2])} m",
         (center[0], top + center[2]),
         xytext=(7, top + 13),
@@ -176,15 +192,15 @@ def _center_of_mass(axes: Axes, x: float, z: float) -> None:
     axes.plot(x, z, marker="+", ms=7, mec=INK, mew=0.8, zorder=6)
 
 
-def _foundation(axes: Axes, system: System, soil: SoilSprings | None, reach: float) -> None:
-    mudline, base = system.turbine.site.mudline, system.chain.base
-    radius = float(outer_diameter(system.turbine, np.array([base]))[0]) / 2
-    if soil is not None:
-        _springs(axes, soil.height, radius, reach)
+def _foundation(axes: Axes, data: xr.Dataset, springs: Array | None, reach: float) -> None:
+    base, _, mudline = _levels(data)
+    radius = float(data["boundary_diameter"][0]) / 2
+    if springs is not None:
+        _springs(axes, springs, radius, reach)
         _toe_spring(axes, base)
-    elif system.foundation.root is None:
+    elif data.attrs["root"] == "fixed":
         _clamp(axes, base, radius)
-    elif system.foundation.name == "macro_element":
+    elif data.attrs["foundation"] == "macro_element":
         _mudline_springs(axes, mudline, radius, "macro-element at the mudline")
     else:
         _mudline_springs(axes, mudline, radius, f"6{TIMES}6 stiffness at the mudline")
@@ -251,27 +267,26 @@ def _zigzag(start: float, end: float, amplitude: float) -> tuple[Array, Array]:
     return along, across
 
 
-def _label_heights(axes: Axes, system: System) -> None:
-    """Main heights with their diameters, standing on their levels at the right, kept apart."""
-    turbine, chain = system.turbine, system.chain
-    top = _diameter(system, chain.top)
-    labels = [(chain.top, f"yaw bearing\nD {top:.2f} m")]
+def _label_heights(axes: Axes, data: xr.Dataset) -> None:
+    """Main heights with their diameters at the right, kept apart."""
+    base, top, mudline = _levels(data)
+    labels = [(top, f"yaw bearing\nD {_diameter(data, top):.2f} m")]
     labels += [
-        (member.bottom, f"foot of {member.name.replace('_', ' ')}\nD {_foot(member):.2f} m")
-        for member in turbine.members
-        if member.bottom > chain.base and member.bottom != turbine.site.mudline
+        (heights[0], f"foot of {name.replace('_', ' ')}\nD {diameters[0]:.2f} m")
+        for name, (heights, diameters) in _members(data).items()
+        if heights[0] > base and heights[0] != mudline
     ]
-    level = _water_level(system)
+    level = _water_level(data)
     named = "still water level" if level == 0 else "water level"
-    labels.append((level, named if system.sea else "water level (dry case)"))
-    labels.append((turbine.site.mudline, "mudline"))
-    if chain.base < turbine.site.mudline:
-        end = base_name(system.foundation.name)
-        labels.append((chain.base, f"{end}\nD {_diameter(system, chain.base):.2f} m"))
+    labels.append((level, named if _wet(data) else "water level (dry case)"))
+    labels.append((mudline, "mudline"))
+    if base < mudline:
+        end = base_name(data.attrs["foundation"])
+        labels.append((base, f"{end}\nD {_diameter(data, base):.2f} m"))
     labels.sort()
     places = spread([height for height, _ in labels], 9.0)
     for (height, text), place in zip(labels, places, strict=True):
-        edge = _diameter(system, height) / 2 + 1
+        edge = _diameter(data, height) / 2 + 1
         axes.plot([edge, 15, 17], [height, height, place], color=MUTED, lw=0.7, zorder=6)
         number = "0 m" if height == 0 else f"{_signed(height)} m"
         axes.annotate(
@@ -284,12 +299,13 @@ def _label_heights(axes: Axes, system: System) -> None:
         )
 
 
-def _foot(member: Member) -> float:
-    return member.stations[0].diameter
-
-
-def _diameter(system: System, height: float) -> float:
-    return float(outer_diameter(system.turbine, np.array([height]))[0])
+def _diameter(data: xr.Dataset, height: float) -> float:
+    """Outer diameter in m at a height; at a jump, that of the part above."""
+    found = 0.0
+    for heights, diameters in _members(data).values():
+        if heights[0] <= height <= heights[-1]:
+            found = float(np.interp(height, heights, diameters))
+    return found
 
 
 def _signed(value: float) -> str:

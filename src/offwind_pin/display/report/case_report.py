@@ -1,21 +1,15 @@
-"""A case as one self-contained HTML page: what came out, what stands in for what, and the proof.
-
->>> write_report(Path("report.html"), CaseReport("lc2.1", "Clamped, dry", "", system, {}, modes=m))
-"""
+"""A case as one self-contained HTML page, made from its results alone."""
 
 from __future__ import annotations
 
 import json
-from pathlib import Path
+from collections.abc import Mapping
 from typing import Any
 
-import numpy as np
+import xarray as xr
 from markupsafe import Markup
 from matplotlib.figure import Figure
 
-from offwind_pin.analysis.foundation.study.state import soil_displacement_reached, soil_springs
-from offwind_pin.base.definition import Array
-from offwind_pin.base.whole_files import write_text
 from offwind_pin.display.figures import results as plots
 from offwind_pin.display.figures.earthquake import response_spectrum_plot
 from offwind_pin.display.figures.operational_modes import identified_plot
@@ -28,36 +22,38 @@ from offwind_pin.display.report.templates import environment
 from offwind_pin.signal.moment_spectrum import MomentSpectrum
 
 SECTIONS = {
-    "surrogates": "What is a surrogate here, and why",
-    "published": "Beside the published numbers",
-    "structure": "The structure",
+    "surrogates": "Surrogate data",
+    "published": "Comparison with published values",
+    "structure": "Structure",
     "modes": "Natural modes",
-    "identified": "Modes out of accelerations",
+    "identified": "Operational modal analysis",
     "statics": "Static equilibrium",
-    "wind": "The synthetic wind",
-    "rotor": "The running rotor",
-    "sea": "The sea",
-    "earthquake": "The earthquake",
+    "wind": "Synthetic wind load",
+    "rotor": "Operating rotor",
+    "sea": "Sea",
+    "earthquake": "Earthquake",
     "histories": "Time histories",
     "psd": "Spectrum of the mudline moment",
     "envelope": "Section loads over height",
     "soil": "Soil curves",
     "damping": "Structural damping",
-    "solver": "What the solver did",
+    "solver": "Solver",
     "provenance": "Provenance",
 }
 """Sections in their order; those without data are left out."""
-_MORE_TITLES = {"settling": "The static state reached in time"}
-"""Of figures that stand in a section beside its own."""
+_MORE_TITLES = {"settling": "Settling to the static state in time"}
+"""Of figures that share a section with another one."""
 
 
-def write_report(path: Path, report: CaseReport) -> None:
-    """Write a case as one HTML file without any outside resource, whole or not at all."""
-    write_text(path, render_report(report))
+def render_report(tree: xr.DataTree, summary: Mapping[str, Any]) -> str:
+    """The HTML text of the report of a case.
 
-
-def render_report(report: CaseReport) -> str:
-    """The HTML text of a report."""
+    Parameters
+    ----------
+    tree : results of the case
+    summary : content of ``summary.json``
+    """
+    report = CaseReport(tree, summary)
     sea = sea_pictures(report)
     shown = _tables(report) | {"sea": sea}
     return (
@@ -76,28 +72,32 @@ def render_report(report: CaseReport) -> str:
 
 
 def _tables(report: CaseReport) -> dict[str, Any]:
-    """What each section shows besides its figure; empty where the section has nothing to say."""
+    """What each section shows besides its figure; empty where the section has no content."""
+    damping = report.part("structural_damping")
     return {
         "surrogates": tables.surrogates(report),
         "published": tables.published_rows(report),
-        "structure": tables.structure_facts(report.system),
+        "structure": tables.structure_facts(report),
         "modes": tables.mode_rows(report),
-        "statics": tables.ordered_statics(report),
-        "settling": report.settling,
+        "statics": report.statics,
+        "settling": report.part("settling") is not None,
         "increases": headline.static_increases(report),
-        "wind": tables.wind_facts(report.wind),
-        "rotor": list(report.rotor),
+        "wind": tables.wind_facts(report.part("wind")),
+        "rotor": tables.rotor_facts(report.part("rotor")),
         "rotor_damping": report.summary.get("aerodynamic_damping", []),
-        "earthquake": report.earthquake,
-        "identified": report.identified,
+        "earthquake": tables.earthquake_facts(report.part("earthquake")),
+        "identified": tables.identified_facts(report.part("identified_modes")),
+        "identified_rows": report.summary.get("identified_modes", []),
         "histories": report.histories is not None,
         "statistics": tables.statistics(report),
-        "psd": report.psd,
-        "psd_rows": tables.psd_rows(report.psd),
+        "psd": report.spectrum,
+        "psd_rows": tables.psd_rows(report.spectrum),
         "envelope": report.analysed is not None,
-        "soil": soil_springs(report.system) is not None,
+        "soil": report.part("soil") is not None,
+        "dampers": "damper" in report.structure.dims,
         "damping": True,
-        "damping_rows": tables.damping_rows(report.system),
+        "damping_of": {} if damping is None else damping.attrs,
+        "damping_rows": tables.damping_rows(damping),
         "solver": tables.solver_account(report),
         "provenance": tables.provenance(report),
         "summary_json": json.dumps(report.summary, indent=2, default=str),
@@ -105,58 +105,44 @@ def _tables(report: CaseReport) -> dict[str, Any]:
 
 
 def _pictures(report: CaseReport, sea: list[SeaPicture]) -> dict[str, Markup]:
-    """SVG by the section that holds it; matplotlib has escaped the names in it."""
+    """SVG by the section that it belongs to; matplotlib has escaped the names in it."""
     figures = _figures(report) | {picture.name: picture.figure for picture in sea}
     return {name: Markup(to_svg(figure, name)) for name, figure in figures.items()}  # noqa: S704
 
 
 def _figures(report: CaseReport) -> dict[str, Figure]:
-    """Figures by the section that holds them."""
-    system, mudline = report.system, report.system.turbine.site.mudline
-    water = None if system.sea is None else system.sea.water_level
-    figures = {"structure": plots.structure(system)}
+    """Figures by the section that they belong to."""
+    mudline, water = float(report.structure.attrs["mudline_m"]), report.water_level
+    figures = {"structure": plots.structure(report.structure)}
     if report.modes is not None:
         figures["modes"] = plots.mode_shapes(report.modes, mudline, water=water)
     if report.statics:
-        figures["statics"] = plots.statics(tables.ordered_statics(report), water=water)
-    if report.settling is not None:
-        figures["settling"] = settling_plot(report.settling)
-    if report.identified is not None:
-        figures["identified"] = identified_plot(report.identified)
-    if report.earthquake is not None:
-        figures["earthquake"] = response_spectrum_plot(report.earthquake)
+        figures["statics"] = plots.statics(report.statics, water=water)
     if report.histories is not None:
         figures["histories"] = plots.time_histories(report.histories)
-    if report.psd is not None:
-        figures["psd"] = _psd_figure(report.psd)
+    if report.spectrum is not None:
+        figures["psd"] = _psd_figure(report.spectrum)
     if report.histories is not None and report.analysed is not None:
         figures["envelope"] = plots.section_load_envelope(report.histories)
-    soil = soil_springs(system)
-    if soil is not None:
-        reached = _soil_reached(report)
-        figures["soil"] = plots.p_y_curves(soil, mudline, reached=reached)
+    drawn = {
+        "settling": ("settling", settling_plot),
+        "identified": ("identified_modes", identified_plot),
+        "earthquake": ("earthquake", response_spectrum_plot),
+        "soil": ("soil", plots.p_y_curves),
+    }
+    for section, (name, draw) in drawn.items():
+        data = report.part(name)
+        if data is not None:
+            figures[section] = draw(data)
     return figures
 
 
-def _psd_figure(psd: MomentSpectrum) -> Figure:
-    near = {psd.nearest_peak(frequency) for frequency in psd.marked.values()}
+def _psd_figure(spectrum: MomentSpectrum) -> Figure:
+    near = {spectrum.nearest_peak(frequency) for frequency in spectrum.marked.values()}
     return plots.moment_psd(
-        psd.frequency,
-        psd.density,
-        psd.marked,
-        bands=tuple((band.low, band.high) for band in psd.bands),
+        spectrum.frequency,
+        spectrum.density,
+        spectrum.marked,
+        bands=tuple((band.low, band.high) for band in spectrum.bands),
         peaks=tuple(sorted(peak for peak in near if peak is not None)),
     )
-
-
-def _soil_reached(report: CaseReport) -> Array | None:
-    """Largest displacement of the soil's nodes: in the analysed time, or in the static state."""
-    soil = soil_springs(report.system)
-    if soil is None:
-        return None
-    if report.analysed is not None:
-        return soil_displacement_reached(report.analysed, soil)
-    state = report.statics.get(report.system.foundation.name)
-    if state is None:
-        return None
-    return np.interp(soil.height, state.height, np.hypot(*state.displacement[:, :2].T))

@@ -1,26 +1,24 @@
-"""What a report of a case is made from."""
+"""What a report reads of the results of a case."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import xarray as xr
 
 from offwind_pin.analysis.modal import ModalResult
-from offwind_pin.analysis.settling import Settling
 from offwind_pin.analysis.static import StaticResult
-from offwind_pin.dynamics.system import System
-from offwind_pin.loads.earthquake.description import EarthquakeDescription
-from offwind_pin.loads.wind.synthetic_thrust import RotorOperation, SyntheticWind
-from offwind_pin.results.reading import analysed as without_ramp
-from offwind_pin.signal.modal_identification.identify import IdentifiedModes
+from offwind_pin.results.reading import analysed
+from offwind_pin.results.tree import part, parts, required
 from offwind_pin.signal.moment_spectrum import MomentSpectrum
 
 
 @dataclass(frozen=True)
 class Published:
-    """A published number and ours.
+    """A published value and the computed one.
 
     Attributes
     ----------
@@ -40,56 +38,103 @@ class Published:
     mode: str | None = None
 
 
-@dataclass(frozen=True)
-class WindDescription:
-    """The generator of a synthetic wind load, and the rotor's steady state that it starts from."""
-
-    generator: SyntheticWind
-    rotor: RotorOperation
-
-
-@dataclass(frozen=True)
 class CaseReport:
-    """Everything a report shows; what is None or empty leaves its section out.
+    """The parts of a case's results; a part that is missing leaves its section out.
 
-    Attributes
+    Parameters
     ----------
-    name, title, description : of the case
-    system : what was solved
-    summary : what goes into ``summary.json``; ``wall_s``, ``simulated_s``, ``realtime_factor`` and
-        ``status`` are shown among the solver's account
-    modes : of the system
-    statics : by name of the foundation; others are compared with the clamped one, or the first
-    histories : from :func:`offwind_pin.simulate`
-    published : numbers to compare with
-    wind : how the tower-top load was made, where it is synthetic
-    psd : of the fore-aft moment at the mudline
-    rotor : name and value of what is to be told of a rotor that runs, or nothing
-    earthquake : that moves the ground, or None
-    identified : modes out of accelerations, or None
-    settling : the static state reached in time, or None
+    tree : results, with at least the groups ``case`` and ``structure``
+    summary : content of ``summary.json``
     """
 
-    name: str
-    title: str
-    description: str
-    system: System
-    summary: dict[str, Any]
-    modes: ModalResult | None = None
-    statics: dict[str, StaticResult] = field(default_factory=dict)
-    histories: xr.Dataset | None = None
-    published: tuple[Published, ...] = ()
-    wind: WindDescription | None = None
-    psd: MomentSpectrum | None = None
-    rotor: tuple[tuple[str, str], ...] = ()
-    earthquake: EarthquakeDescription | None = None
-    identified: IdentifiedModes | None = None
-    settling: Settling | None = None
+    def __init__(self, tree: xr.DataTree, summary: Mapping[str, Any]) -> None:
+        self.tree = tree
+        self.summary = dict(summary)
+        self.case = tree["case"].attrs
+
+    def part(self, name: str) -> xr.Dataset | None:
+        """A group under its plain dimensions, or None."""
+        return part(self.tree, name)
 
     @property
+    def name(self) -> str:
+        return str(self.case["name"])
+
+    @property
+    def title(self) -> str:
+        return str(self.case.get("title") or self.name)
+
+    @property
+    def description(self) -> str:
+        return str(self.case.get("description", ""))
+
+    @property
+    def status(self) -> str:
+        """``complete``, ``failed`` or ``interrupted``."""
+        return str(self.case["status"])
+
+    @cached_property
+    def structure(self) -> xr.Dataset:
+        return required(self.tree, "structure")
+
+    @property
+    def foundation(self) -> str:
+        return str(self.structure.attrs["foundation"])
+
+    @property
+    def wet(self) -> bool:
+        return bool(self.structure.attrs["sea"] != "dry")
+
+    @property
+    def water_level(self) -> float | None:
+        """Height of the mean surface in m; None for a dry structure."""
+        return float(self.structure.attrs["water_level_m"]) if self.wet else None
+
+    @cached_property
+    def modes(self) -> ModalResult | None:
+        data = self.part("modes")
+        return None if data is None else ModalResult.from_dataset(data)
+
+    @cached_property
+    def statics(self) -> dict[str, StaticResult]:
+        """Static states by foundation, the clamped one first: the others are compared with it."""
+        states = {
+            str(data.attrs["foundation"]): StaticResult.from_dataset(data)
+            for data in parts(self.tree, "static")
+        }
+        return dict(sorted(states.items(), key=lambda item: item[0] != "clamped"))
+
+    @cached_property
+    def histories(self) -> xr.Dataset | None:
+        return self.part("histories")
+
+    @cached_property
     def analysed(self) -> xr.Dataset | None:
         """The histories after the ramp, or None where fewer than two samples are left."""
         if self.histories is None:
             return None
-        rest = without_ramp(self.histories)
+        rest = analysed(self.histories)
         return rest if rest.sizes["time"] > 1 else None
+
+    @cached_property
+    def spectrum(self) -> MomentSpectrum | None:
+        data = self.part("spectrum")
+        return None if data is None else MomentSpectrum.from_dataset(data)
+
+    @cached_property
+    def published(self) -> tuple[Published, ...]:
+        data = self.part("published")
+        if data is None:
+            return ()
+        texts = [data[name].to_numpy() for name in ("quantity", "unit", "origin", "key")]
+        return tuple(
+            Published(str(quantity), float(value), str(unit), str(origin), self._computed(str(key)))
+            for quantity, unit, origin, key, value in zip(
+                *texts, data["value"].to_numpy(), strict=True
+            )
+        )
+
+    def _computed(self, key: str) -> float | None:
+        """A number of the summary; None where there is none of that key."""
+        value = self.summary.get(key)
+        return float(value) if isinstance(value, int | float) else None

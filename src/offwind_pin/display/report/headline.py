@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from offwind_pin.base.mode_labels import mode_name
-from offwind_pin.display.report.tables import mudline_moment, ordered_statics
+from offwind_pin.display.report.tables import mudline_moment
 from offwind_pin.display.wording import (
     difference,
     fixed,
@@ -21,6 +21,8 @@ from offwind_pin.display.wording import (
 if TYPE_CHECKING:
     from offwind_pin.display.report.contents import CaseReport
     from offwind_pin.signal.moment_spectrum import MomentSpectrum
+
+_STOPPED = {"failed": "failed", "interrupted": "was interrupted"}
 
 CLOSE = 0.02
 """Relative difference from a published value that the headline calls close."""
@@ -52,7 +54,7 @@ def cards(report: CaseReport) -> list[Card]:
     """Up to four key numbers, those of the richest analysis of the case."""
     chosen = [
         *_history_cards(report),
-        *_spectrum_cards(report.psd),
+        *_spectrum_cards(report.spectrum),
         *_static_cards(report),
         *_mode_cards(report),
     ]
@@ -60,32 +62,33 @@ def cards(report: CaseReport) -> list[Card]:
 
 
 def _status_sentence(report: CaseReport) -> str:
-    if report.histories is None:
+    if report.status == "complete":
         return ""
-    status = report.histories.attrs.get("status", "complete")
-    if status == "complete":
-        return ""
-    end = float(report.histories.time.values[-1])
-    return f"this run is {status}: it ends at {number(end)} s, and what follows is what there is"
+    cause = str(report.case.get("message", ""))
+    text = f"the run {_STOPPED[report.status]}"
+    if report.histories is not None:
+        end = float(report.histories.time.values[-1])
+        text += f" at {number(end)} s; this page shows the results up to then"
+    return f"{text}. {sentence(cause)}" if cause else text
 
 
 def _spectrum_sentences(report: CaseReport) -> list[str]:
-    psd = report.psd
+    psd = report.spectrum
     if psd is None:
         return []
     said = []
     peaks = [psd.peak_in(band)[1] for band in psd.bands[:2]]
     found = [f"{peak:.3f} Hz" for peak in peaks if peak is not None]
     if found:
-        said.append(f"in the bands of the bending modes its spectrum peaks at {listing(found)}")
+        said.append(f"in the bands of the bending modes, its spectrum peaks at {listing(found)}")
     if psd.ratio is not None and any(
         row.quantity.startswith("PSD sum") for row in report.published
     ):
         first, second = psd.bands[:2]
         said.append(
-            f"between {first.low:g} and {first.high:g} Hz it has {number(psd.ratio, 3)} times the "
-            f"variance that it has between {second.low:g} and {second.high:g} Hz: "
-            f"{orders_of_magnitude(psd.ratio)}"
+            f"its variance between {first.low:g} and {first.high:g} Hz is "
+            f"{number(psd.ratio, 3)} times that between {second.low:g} and {second.high:g} Hz "
+            f"({orders_of_magnitude(psd.ratio)})"
         )
     return said
 
@@ -97,23 +100,24 @@ def _history_sentences(report: CaseReport) -> list[str]:
     top = data.tower_top_displacement.sel(direction="x")
     moment = data.mudline_moment.sel(direction="y") / 1e6
     return [
-        f"after the ramp the tower top moves between {number(float(top.min()), 3)} and "
-        f"{number(float(top.max()), 3)} m along x, and the fore-aft moment at the mudline between "
-        f"{number(float(moment.min()), 3)} and {number(float(moment.max()), 3)} MN m"
+        f"after the ramp, the tower-top displacement along x ranges from "
+        f"{number(float(top.min()), 3)} to {number(float(top.max()), 3)} m and the fore-aft moment "
+        f"at the mudline from {number(float(moment.min()), 3)} to "
+        f"{number(float(moment.max()), 3)} MN m"
     ]
 
 
-def _held(foundation: str) -> str:
-    """How a foundation holds the structure, as an adverb."""
+def _supported(foundation: str) -> str:
+    """A foundation with its preposition."""
     before = {"clamped": "", "apparent_fixity": "with ", "macro_element": "on a "}
     return before.get(foundation, "on ") + foundation_name(foundation)
 
 
 def static_increases(report: CaseReport) -> list[str]:
-    """How much further the tower top leans on each foundation than on the first in order."""
+    """Tower-top displacement on each foundation compared with the first in order."""
     if len(report.statics) < 2:
         return []
-    (name, first), *others = ordered_statics(report).items()
+    (name, first), *others = report.statics.items()
     before = float(first.tower_top_displacement[0])
     if before == 0:
         return []
@@ -121,10 +125,11 @@ def static_increases(report: CaseReport) -> list[str]:
     for other, result in others:
         now = float(result.tower_top_displacement[0])
         change = 100 * (abs(now) / abs(before) - 1)
-        word = "further" if change >= 0 else "less far"
+        word = "larger" if change >= 0 else "smaller"
         said.append(
-            f"the tower top leans {abs(change):.1f} % {word} {_held(other)} than {_held(name)}: "
-            f"{fixed(now, 3)} m along x instead of {fixed(before, 3)} m"
+            f"the static tower-top displacement is {abs(change):.1f} % {word} "
+            f"{_supported(other)} than {_supported(name)}: {fixed(now, 3)} m along x compared with "
+            f"{fixed(before, 3)} m"
         )
     return said
 
@@ -138,8 +143,8 @@ def _mode_sentences(report: CaseReport) -> list[str]:
         for label in ("FA1", "SS1", "FA2")
         if label in modes.label
     ]
-    where = foundation_name(report.system.foundation.name)
-    water = "in water" if report.system.sea is not None else "dry"
+    where = foundation_name(report.foundation)
+    water = "in water" if report.wet else "dry"
     return [f"natural frequencies, {where}, {water}: {listing(said)}"] if said else []
 
 
@@ -156,8 +161,8 @@ def _published_sentence(report: CaseReport) -> str:
     _, farthest, ours = max(compared, key=lambda entry: entry[0])
     how = difference(ours, farthest.value, farthest.unit)
     return (
-        f"published values met within {100 * CLOSE:g} %: {close} of {len(compared)}; the farthest "
-        f"is {farthest.quantity}: {how}"
+        f"{close} of {len(compared)} published values are met within {100 * CLOSE:g} %; the "
+        f"largest difference is that of {farthest.quantity}: {how}"
     )
 
 
@@ -188,7 +193,7 @@ def _spectrum_cards(psd: MomentSpectrum | None) -> list[Card]:
 def _static_cards(report: CaseReport) -> list[Card]:
     if report.histories is not None or (report.modes is not None and len(report.statics) < 2):
         return []
-    states = ordered_statics(report)
+    states = report.statics
     found = [
         Card(
             fixed(float(result.tower_top_displacement[0]), 3),

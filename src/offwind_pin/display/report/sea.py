@@ -1,4 +1,4 @@
-"""The section of a report that shows the sea and what it does to the structure."""
+"""The section of a report about the sea and its forces on the structure."""
 
 from __future__ import annotations
 
@@ -6,27 +6,21 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+import xarray as xr
 from matplotlib.figure import Figure
 
+from offwind_pin.analysis import sea_data
 from offwind_pin.base.definition import Array
 from offwind_pin.display.figures import sea as sea_plots
-from offwind_pin.display.figures import sea_data
 from offwind_pin.display.wording import fixed, number
-from offwind_pin.loads.sea.hydrodynamic_loads import Waters
-from offwind_pin.loads.sea.sea import Sea
-from offwind_pin.loads.sea.waves.wave_field import WaveField
-from offwind_pin.signal.spectra import power_spectral_density
 
 if TYPE_CHECKING:
     from offwind_pin.display.report.contents import CaseReport
 
-_SEGMENT = 200.0
-"""s; Welch's windows where the case names none."""
-
 _STRETCHING = {
-    "none": "without stretching, so that a crest acts up to the mean water level only",
-    "vertical": "as at the mean water level above it (vertical stretching)",
-    "extrapolation": "continued above the mean water level with the slope there (extrapolation)",
+    "none": "without stretching, so that waves act up to the mean water level only",
+    "vertical": "constant above the mean water level (vertical stretching)",
+    "extrapolation": "extrapolated linearly above the mean water level",
     "wheeler": "stretched to the moving surface (Wheeler)",
 }
 
@@ -43,98 +37,92 @@ class SeaPicture:
 
 def sea_pictures(report: CaseReport) -> list[SeaPicture]:
     """Elevation, profiles, spectrum and forces of a time history in waves; else nothing."""
-    waters, sea, data = report.system.waters, report.system.sea, report.analysed
-    if waters is None or sea is None or data is None or report.histories is None:
+    waves, whole, data = report.part("waves"), report.histories, report.analysed
+    if waves is None or whole is None or data is None or "velocity" not in waves:
         return []
-    waves = waters.surface.waves
-    if waves is None:
-        return []
-    time = np.asarray(data.time.values, dtype=float)
-    elevation = np.asarray(data.wave_elevation.values, dtype=float)
-    whole = report.histories
-    pictures = [
-        _elevation(sea, whole.time.values, whole.wave_elevation.values, float(time[0])),
-        _kinematics(waters, waves, sea, float(time[np.argmax(elevation)])),
-    ]
-    if sea_data.has_spectrum(waves):
-        asked = _SEGMENT if report.psd is None else report.psd.segment
-        pictures.append(_spectrum(waves, sea, time, elevation, asked))
-    moment = np.linalg.norm(data.mudline_moment.sel(direction=["x", "y"]).values, axis=1)
-    pictures.append(_forces(waters, waves, time, float(time[np.argmax(moment)])))
-    return pictures
+    ramp = float(data.time.values[0])
+    pictures = [_elevation(waves, whole.time.values, whole.wave_elevation.values, ramp)]
+    pictures.append(_kinematics(waves))
+    if "run_density" in waves:
+        pictures.append(_spectrum(waves))
+    return [*pictures, _forces(waves)]
 
 
-def _elevation(sea: Sea, time: Array, elevation: Array, ramp: float) -> SeaPicture:
-    title = sea.in_words[:1].upper() + sea.in_words[1:]
+def _elevation(waves: xr.Dataset, time: Array, elevation: Array, ramp: float) -> SeaPicture:
+    words = str(waves.attrs["waves"])
     analysed = elevation[time >= ramp]
     return SeaPicture(
         "sea-elevation",
         "Surface elevation over time",
-        "The undisturbed surface at the structure's axis; the dot is the highest crest after the "
-        f"ramp. Four standard deviations of this run are {number(4 * float(analysed.std()), 3)} m.",
-        sea_plots.surface_elevation(time, elevation, title=title, ramp=ramp),
+        "Undisturbed surface at the axis of the structure; the dot marks the highest crest after "
+        "the ramp. Four standard deviations of this run are "
+        f"{number(4 * float(analysed.std()), 3)} m.",
+        sea_plots.surface_elevation(
+            time, elevation, title=words[:1].upper() + words[1:], ramp=ramp
+        ),
     )
 
 
-def _kinematics(waters: Waters, waves: WaveField, sea: Sea, crest: float) -> SeaPicture:
-    when = sea_data.phases(waters.surface, waves, crest)
-    along = sea_data.wave_direction(waves)
-    shown = sea_data.profiles(waters, sea, np.array([when.crest, when.crossing, when.trough]))
-    reach = _STRETCHING[sea.stretching]
-    if waves.exact_surface:
-        reach = "by the wave's own theory up to its surface"
-    current = " The velocity holds the current." if sea.current is not None else ""
+def _kinematics(waves: xr.Dataset) -> SeaPicture:
+    crest, along = float(waves.attrs["crest_s"]), _along(waves)
+    reach = _STRETCHING[str(waves.attrs["stretching"])]
+    if waves.attrs["exact_surface"]:
+        reach = "by the theory of the wave up to its surface"
+    current = ""
+    if bool((waves["current"] != 0).any()):
+        current = " The velocity includes the current."
     return SeaPicture(
         "sea-kinematics",
         "Velocity and acceleration of the water over height",
-        f"The undisturbed water about the highest crest of the run, at {fixed(crest, 1)} s, in the "
-        f"direction of the waves ({_degrees(along)} from x towards y), {reach}.{current} What the "
-        "structure does to the waves is not in these profiles.",
-        sea_plots.kinematics(shown, along, waters.turbine.site.mudline, waters.surface.level),
+        f"Undisturbed water around the highest crest of the run, at {fixed(crest, 1)} s, in the "
+        f"direction of the waves ({_degrees(along)} from x towards y), {reach}.{current} "
+        "Disturbance of the waves by the structure is not included.",
+        sea_plots.kinematics(sea_data.profiles_of(waves), along, *_levels(waves)),
     )
 
 
-def _spectrum(
-    waves: WaveField, sea: Sea, time: Array, elevation: Array, segment: float
-) -> SeaPicture:
-    window = min(segment, float(time[-1] - time[0]))
-    run = power_spectral_density(elevation, float(time[1] - time[0]), window)
-    target = sea_data.target_density(sea, waves.depth, waves.gravity)
-    dashed = "" if target is None else " Dashed: the spectrum that the waves were made from."
+def _spectrum(waves: xr.Dataset) -> SeaPicture:
+    window = float(waves.attrs["segment_s"])
+    run, band, target = (sea_data.spectrum_of(waves, n) for n in ("run", "band", "target"))
+    dashed = "" if target is None else " Dashed: target spectrum of the waves."
     return SeaPicture(
         "sea-spectrum",
         "Spectrum of the surface elevation",
-        f"Shaded: the surface after the ramp, Welch's method with Hann windows of "
-        f"{number(window, 3)} s. Dots: the components of the sea, in bands of "
-        f"{number(1 / window, 2)} Hz or a little more.{dashed} One run is one realisation, whose "
-        "own peaks and gaps say little.",
-        sea_plots.elevation_spectrum(
-            run, sea_data.component_density(waves, 1 / window), target, title="Spectrum"
-        ),
+        f"Shaded: surface elevation after the ramp, Welch's method with Hann windows of "
+        f"{number(window, 3)} s. Dots: all wave components, averaged over bands of at least "
+        f"{number(1 / window, 2)} Hz.{dashed} A single run is one realisation; its individual "
+        "peaks and gaps are not significant.",
+        sea_plots.elevation_spectrum(run, band, target, title="Spectrum"),
     )
 
 
-def _forces(waters: Waters, waves: WaveField, time: Array, worst: float) -> SeaPicture:
-    mudline = waters.turbine.site.mudline
-    force, along = waters.wave_force(), sea_data.wave_direction(waves)
-    then = sea_data.force_per_length(force, np.array([worst]), along)
+def _forces(waves: xr.Dataset) -> SeaPicture:
+    mudline, level = _levels(waves)
+    worst = float(waves.attrs["worst_s"])
+    then = sea_data.worst_force_of(waves)
+    envelope = waves["smallest_force"].to_numpy(), waves["largest_force"].to_numpy()
     return SeaPicture(
         "sea-forces",
-        "Force of the water over height",
-        f"Along the waves, on the structure as if it stood upright and still. Left: at "
-        f"{fixed(worst, 1)} s, when the moment at the mudline is largest, which wind and inertia "
-        f"may have made rather than this wave; there the water pushes with "
-        f"{number(float(then.resultant[0]) / 1e6, 3)} MN and turns about the mudline with "
-        f"{number(float(then.moment(mudline)[0]) / 1e6, 3)} MN m. A step is a strip of the model, "
-        "and counts with all its length, wet or not.",
+        "Hydrodynamic force over height",
+        f"In the direction of the waves, on the upright structure at rest. Left: at "
+        f"{fixed(worst, 1)} s, the instant of the largest mudline moment, which may be due to wind "
+        f"and inertia rather than to this wave: hydrodynamic force "
+        f"{number(float(then.resultant[0]) / 1e6, 3)} MN, mudline moment "
+        f"{number(float(then.moment(mudline)[0]) / 1e6, 3)} MN m. Each step is a strip of the "
+        "model, with its force divided by its full length, wet or not.",
         sea_plots.force_over_height(
-            then,
-            sea_data.force_envelope(force, time, along),
-            mudline,
-            waters.surface.level,
-            title=f"At {fixed(worst, 1)} s",
+            then, envelope, mudline, level, title=f"At {fixed(worst, 1)} s"
         ),
     )
+
+
+def _levels(waves: xr.Dataset) -> tuple[float, float]:
+    """Heights of mudline and mean surface in m."""
+    return float(waves.attrs["mudline_m"]), float(waves.attrs["water_level_m"])
+
+
+def _along(waves: xr.Dataset) -> Array:
+    return np.array([waves.attrs["along_x"], waves.attrs["along_y"]])
 
 
 def _degrees(along: Array) -> str:

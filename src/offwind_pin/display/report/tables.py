@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+import json
+from collections.abc import Mapping
 from dataclasses import dataclass
-from importlib import metadata
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from offwind_pin.analysis.wave_checks import wave_facts
 from offwind_pin.base.mode_labels import mode_name
 from offwind_pin.display.wording import (
     DASH,
@@ -22,19 +22,15 @@ from offwind_pin.display.wording import (
     sentence,
     significant_digits,
 )
-from offwind_pin.dynamics.system import System
-from offwind_pin.loads.sea.current import mean_velocity
-from offwind_pin.loads.wind.synthetic_thrust import AIR_DENSITY
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from offwind_pin.analysis.static import StaticResult
-    from offwind_pin.display.report.contents import CaseReport, Published, WindDescription
+    from offwind_pin.display.report.contents import CaseReport, Published
     from offwind_pin.signal.moment_spectrum import MomentSpectrum
 
 _ROUNDING = 1e-12
-"""Of the largest number of a unit, below which another is none."""
+"""Of the largest value with the same unit, below which a value is shown as zero."""
 _BAR = 0.10
 """Relative difference at which the bars in the table of published values end."""
 
@@ -64,7 +60,7 @@ _PROVENANCE_NAMES = {
     "dt_s": "time step, s",
     "ramp_s": "ramp, s",
     "spectral_radius": "spectral radius at infinite frequency",
-    "residual_tolerance": "tolerance of the residual over the load scale",
+    "residual_tolerance": "tolerance of the residual relative to the load scale",
     "offwind_pin_version": "offwind-pin",
     "pinocchio_version": "Pinocchio",
 }
@@ -74,7 +70,7 @@ _SLIDES = {"fore_aft": "fore-aft", "side_side": "side-side", "both": "both ways"
 
 @dataclass(frozen=True)
 class Surrogate:
-    """What stands in, why, and how to replace it."""
+    """What is replaced, why, and how to give the real data."""
 
     what: str
     why: str
@@ -83,7 +79,7 @@ class Surrogate:
 
 @dataclass(frozen=True)
 class PublishedRow:
-    """A published value beside ours; bar from -1 to 1, or None without ours."""
+    """A published value and the computed one; bar from -1 to 1, or None without the latter."""
 
     published: Published
     ours: str
@@ -104,31 +100,23 @@ class ModeRow:
     published: str
 
 
-def ordered_statics(report: CaseReport) -> dict[str, StaticResult]:
-    """The static states, the clamped one first: the others are compared with it."""
-    return dict(sorted(report.statics.items(), key=lambda item: item[0] != "clamped"))
-
-
 def surrogates(report: CaseReport) -> list[Surrogate]:
-    """Everything that stands in for numbers that are not to hand."""
+    """Everything that replaces data that are not available."""
     found = []
-    soil = report.system.foundation.surrogate
+    soil = str(report.structure.attrs["surrogate"])
     if soil:
         remedy = (
             "put the real p-y curves into a CSV table (depth_m, y_m, p_n_per_m) and name it in "
         )
         found.append(Surrogate("The soil", soil, remedy + "the turbine file."))
     attributes = {} if report.histories is None else report.histories.attrs
-    loads = str(attributes.get("surrogates", "none")).split(" | ")
-    if report.histories is None and report.wind is not None:
-        loads.append(report.wind.generator.surrogate)
     found += [
         Surrogate(
             "The load at the tower top",
             sentence(text),
             "give the real history as seven columns: t, Fx, Fy, Fz, Mx, My, Mz in s, N and N m.",
         )
-        for text in loads
+        for text in str(attributes.get("surrogates", "none")).split(" | ")
         if text not in ("none", "", soil)
     ]
     return found
@@ -148,13 +136,13 @@ def statistics(report: CaseReport) -> list[tuple[str, str, list[float]]]:
         ("wave elevation", "m", data.wave_elevation),
     ]
     applied = data.tower_top_load.sel(component="Fx") / 1e6
-    if bool((applied != 0).any()):  # a running rotor's thrust is not among what is applied
+    if bool((applied != 0).any()):  # does not contain the thrust of an operating rotor
         rows.append(("applied tower-top force along x", "MN", applied))
     if "tuned_mass_displacement" in data:
         for name in data["damper"].to_numpy():
             for axis in data["across"].to_numpy():
                 slip = data.tuned_mass_displacement.sel(damper=name, across=axis)
-                rows.append((f"tuned mass {name} in its carrier along {axis}", "m", slip))
+                rows.append((f"tuned mass {name} relative to its carrier along {axis}", "m", slip))
     found = [
         (name, unit, [float(v) for v in (x.mean(), x.std(), x.min(), x.max())])
         for name, unit, x in rows
@@ -189,86 +177,77 @@ def published_rows(report: CaseReport) -> list[PublishedRow]:
     return rows
 
 
-def structure_facts(system: System) -> list[tuple[str, str]]:
+def structure_facts(report: CaseReport) -> list[tuple[str, str]]:
     """Name and value with its unit, the numbers an engineer asks for first."""
-    turbine, chain = system.turbine, system.chain
-    mudline = turbine.site.mudline
-    mass = sum(body.mass for body in chain.body)
-    above = "mudline" if chain.base >= mudline else base_name(system.foundation.name)
+    data = report.structure
+    about = data.attrs
+    mudline, base, top = (float(about[f"{name}_m"]) for name in ("mudline", "base", "yaw_bearing"))
+    support = float(data["support_structure_mass"])
+    above = "mudline" if base >= mudline else base_name(report.foundation)
     facts = [
-        ("foundation", foundation_name(system.foundation.name)),
-        ("sea", describe_sea(system)),
-        *_realised_waves(system),
-        ("height, mudline to yaw bearing", quantity(chain.top - mudline, "m", 5)),
-        ("water depth", quantity(turbine.site.water_depth, "m", 3)),
+        ("foundation", foundation_name(report.foundation)),
+        ("sea", str(about["sea_in_words"])),
+        *_realised_waves(report.summary.get("waves", {})),
+        ("height, mudline to yaw bearing", quantity(top - mudline, "m", 5)),
+        ("water depth", quantity(float(about["water_depth_m"]), "m", 3)),
     ]
-    if chain.base < mudline:
-        length = f"from the mudline to the {base_name(system.foundation.name)}"
-        facts.append((length, quantity(mudline - chain.base, "m", 3)))
+    if base < mudline:
+        length = f"from the mudline to the {base_name(report.foundation)}"
+        facts.append((length, quantity(mudline - base, "m", 3)))
     facts += [
-        (f"tower and monopile, from the {above}", quantity(mass / 1e3, "t")),
-        ("rotor-nacelle assembly", quantity(chain.rna.mass / 1e3, "t")),
-        *_tuned_masses(system),
-        ("multibody beam elements", str(chain.elements)),
-        ("degrees of freedom", str(system.nv)),
+        (f"tower and monopile, from the {above}", quantity(support / 1e3, "t")),
+        (
+            "rotor-nacelle assembly",
+            quantity(float(data["rotor_nacelle_mass"]) / 1e3, "t"),
+        ),
+        *_tuned_masses(data),
+        ("multibody beam elements", str(about["elements"])),
+        ("degrees of freedom", str(about["degrees_of_freedom"])),
     ]
     return facts
 
 
-def _tuned_masses(system: System) -> list[tuple[str, str]]:
+def _tuned_masses(data: xr.Dataset) -> list[tuple[str, str]]:
     """A line about each tuned mass damper."""
+    if "damper" not in data.dims:
+        return []
+    dampers = (data.sel(damper=name) for name in data["damper"].to_numpy())
     return [
         (
-            f"tuned mass damper {mass.name}",
-            f"{quantity(mass.mass / 1e3, 't', 3)} at z = {number(mass.z, 4)} m, "
-            f"{number(np.sqrt(mass.stiffness / mass.mass) / (2 * np.pi), 3)} Hz, "
-            f"{_SLIDES[mass.direction]}",
+            f"tuned mass damper {mass['damper'].item()}",
+            f"{quantity(float(mass['damper_mass']) / 1e3, 't', 3)} at "
+            f"z = {number(float(mass['damper_height']), 4)} m, "
+            f"{number(float(mass['damper_frequency']), 3)} Hz, "
+            f"{_SLIDES[mass['damper_direction'].item()]}",
         )
-        for mass in system.turbine.tuned_mass_dampers
+        for mass in dampers
     ]
 
 
-def describe_sea(system: System) -> str:
-    """The sea in words."""
-    sea = system.sea
-    if sea is None:
-        return "none (dry)"
-    told = [sea.in_words]
-    if sea.water_level:
-        told.append(f"mean level at z = {sea.water_level:g} m")
-    if sea.stretching != "none":
-        told.append(f"stretched to the surface ({sea.stretching})")
-    if sea.current is not None:
-        x, y, _ = mean_velocity(sea.current, sea.water_level - system.turbine.site.mudline)
-        speed, towards = float(np.hypot(x, y)), float(np.degrees(np.arctan2(y, x)))
-        told.append(f"current of {speed:.3g} m/s in the mean over depth, towards {towards:.3g}°")
-    return ", ".join(told)
-
-
-def _realised_waves(system: System) -> list[tuple[str, str]]:
-    """One line about the waves as they came out, none without waves."""
-    facts = wave_facts(system)
+def _realised_waves(facts: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """One line about the waves as realised, none without waves."""
     if not facts:
         return []
-    told = []
+    values = []
     if "significant_height_m" in facts:
-        told += [
+        values += [
             f"Hs {quantity(facts['significant_height_m'], 'm', 3)}",
             f"Tp {quantity(facts['peak_period_s'], 's', 3)}",
         ]
-    told += [
+    values += [
         f"Tz {quantity(facts['zero_crossing_period_s'], 's', 3)}",
         f"highest crest {quantity(facts['highest_crest_m'], 'm', 3)}",
         f"lowest trough {quantity(facts['lowest_trough_m'], 'm', 3)}",
     ]
-    return [("waves as realised", ", ".join(told))]
+    return [("waves as realised", ", ".join(values))]
 
 
 def mode_rows(report: CaseReport) -> list[ModeRow]:
     modes = report.modes
     if modes is None:
         return []
-    mudline, top = report.system.turbine.site.mudline, report.system.chain.top
+    about = report.structure.attrs
+    mudline, top = float(about["mudline_m"]), float(about["yaw_bearing_m"])
     rows = []
     for i, label in enumerate(modes.label):
         ratio = float(modes.shape_peak_height_ratio[i])
@@ -294,62 +273,123 @@ def _is_frequency_of(row: Published, label: str) -> bool:
     return row.unit == "Hz" and row.quantity in (label, mode_name(label))
 
 
-def wind_facts(wind: WindDescription | None) -> dict[str, float]:
-    """What the derivation of the mean load needs besides the rotor's own numbers."""
+def wind_facts(wind: xr.Dataset | None) -> dict[str, Any]:
+    """Numbers of the derivation of a synthetic load by name, its harmonics among them."""
     if wind is None:
         return {}
-    passing = 2 * np.pi * wind.generator.blade_passing_frequency
-    return {
-        "blades": round(passing / wind.rotor.rotor_speed),
-        "rotor_speed_rpm": wind.rotor.rotor_speed * 30 / np.pi,
-        "air_density": AIR_DENSITY,
+    scalars = {str(name): float(data) for name, data in wind.data_vars.items() if not data.dims}
+    return scalars | {
+        "blades": int(wind.attrs["blades"]),
+        "seed": int(wind.attrs["seed"]),
+        "rotor_speed_rpm": scalars["rotor_speed"] * 30 / np.pi,
+        "harmonics": wind["harmonics"].to_numpy().tolist(),
     }
 
 
-def psd_rows(psd: MomentSpectrum | None) -> list[tuple[str, float, float | None]]:
-    """Marked name, its frequency, and the nearest peak found, by rising frequency."""
-    if psd is None:
+def rotor_facts(rotor: xr.Dataset | None) -> list[tuple[str, str]]:
+    """Name and value of the operating point of a rotor."""
+    if rotor is None:
         return []
-    marked = sorted(psd.marked.items(), key=lambda item: item[1])
-    return [(name, frequency, psd.nearest_peak(frequency)) for name, frequency in marked]
-
-
-def damping_rows(system: System) -> list[tuple[str, float, float]]:
-    """Label, damping ratio asked for and achieved on the calibration's own system."""
-    calibration = system.turbine.structural_damping
-    if calibration is None:
-        return []
+    control = str(rotor.attrs["control"])
+    if "control_time" in rotor:
+        control += f", time constant {quantity(float(rotor['control_time']), 's')}"
+    wake = "in equilibrium"
+    if "wake_time" in rotor:
+        wake = f"dynamic, time constant {quantity(float(rotor['wake_time']), 's', 3)}"
     return [
-        (label, calibration.ratios[label], achieved)
-        for label, achieved in system.damping_ratios.items()
-        if label in calibration.ratios
+        ("mean wind at the hub", quantity(float(rotor["mean_wind"]), "m/s")),
+        (
+            "standard deviation of the rotor-effective wind",
+            quantity(float(rotor["wind_standard_deviation"]), "m/s", 3),
+        ),
+        ("thrust coefficient", number(float(rotor["thrust_coefficient"]), 3)),
+        ("mean thrust", quantity(float(rotor["mean_thrust"]) / 1e6, "MN")),
+        (
+            "blade-passing frequency",
+            quantity(float(rotor["blade_passing_frequency"]), "Hz", 3),
+        ),
+        ("controller", control),
+        ("wake", wake),
+        ("wind", str(rotor.attrs["wind"])),
+    ]
+
+
+def earthquake_facts(earthquake: xr.Dataset | None) -> list[tuple[str, str]]:
+    """Name and value of the strength of an earthquake and its origin."""
+    if earthquake is None:
+        return []
+
+    def listed(name: str, unit: str) -> str:
+        values = earthquake[name].to_numpy()
+        return f"{', '.join(number(value, 3) for value in values)} {unit}"
+
+    return [
+        ("peak ground acceleration x, y, z", listed("peak_ground_acceleration", "m/s²")),
+        ("peak ground velocity x, y, z", listed("peak_ground_velocity", "m/s")),
+        ("peak ground displacement x, y, z", listed("peak_ground_displacement", "m")),
+        ("Arias intensity x, y, z", listed("arias_intensity", "m/s")),
+        ("baseline", str(earthquake.attrs["baseline"])),
+        ("record", str(earthquake.attrs["origin"])),
+        *(("caution", text) for text in json.loads(earthquake.attrs["cautions"])),
+    ]
+
+
+def identified_facts(data: xr.Dataset | None) -> dict[str, Any]:
+    """The record of an operational modal analysis, and cautions about it."""
+    if data is None:
+        return {}
+    return {
+        "seed": int(data.attrs["seed"]),
+        "record_s": float(data.attrs["record_s"]),
+        "nodes": data.sizes["height"],
+        "cautions": json.loads(data.attrs["cautions"]),
+    }
+
+
+def psd_rows(spectrum: MomentSpectrum | None) -> list[tuple[str, float, float | None]]:
+    """Marked name, its frequency, and the nearest peak found, by rising frequency."""
+    if spectrum is None:
+        return []
+    marked = sorted(spectrum.marked.items(), key=lambda item: item[1])
+    return [(name, frequency, spectrum.nearest_peak(frequency)) for name, frequency in marked]
+
+
+def damping_rows(data: xr.Dataset | None) -> list[tuple[str, float, float]]:
+    """Label, damping ratio requested and achieved on the system of the calibration."""
+    if data is None:
+        return []
+    columns = (data[name].to_numpy() for name in ("mode", "requested", "achieved"))
+    return [
+        (str(label), float(requested), float(achieved))
+        for label, requested, achieved in zip(*columns, strict=True)
+        if np.isfinite(requested) and np.isfinite(achieved)
     ]
 
 
 def solver_account(report: CaseReport) -> list[tuple[str, str]]:
-    """What the solver did, name and value."""
+    """Account of the solver, name and value."""
     rows: list[tuple[str, str]] = []
     data, summary = report.histories, report.summary
     if data is not None:
         time, taken = data.time.values, data.solver_iterations.values[1:]
         rows += [
-            ("status", str(data.attrs.get("status", "unknown"))),
+            ("status", report.status),
             ("simulated time", quantity(float(time[-1]), "s")),
             ("time steps", count(round(float(time[-1]) / float(data.attrs["dt_s"])))),
         ]
         if len(taken):
             rows.append(
                 (
-                    "Newton iterations a step",
-                    f"{taken.mean():.2f} on average, {taken.max()} at most",
+                    "Newton iterations per step",
+                    f"{taken.mean():.2f} on average, at most {taken.max()}",
                 )
             )
             worst = float(data.solver_residual.max())
             tolerance = float(data.attrs["residual_tolerance"])
             rows.append(
                 (
-                    "largest residual over the load scale",
-                    f"{number(worst, 2)} (allowed: {number(tolerance, 2)})",
+                    "largest residual relative to the load scale",
+                    f"{number(worst, 2)} (tolerance: {number(tolerance, 2)})",
                 )
             )
     rows += [
@@ -357,34 +397,30 @@ def solver_account(report: CaseReport) -> list[tuple[str, str]]:
             f"static state, {foundation_name(name)}",
             f"{state.iterations} Newton iterations, residual {number(state.residual, 2)}",
         )
-        for name, state in ordered_statics(report).items()
+        for name, state in report.statics.items()
     ]
     if "wall_s" in summary:
         rows.append(("wall time", quantity(float(summary["wall_s"]), "s", 3)))
     if data is not None and "realtime_factor" in summary:
         factor = number(float(summary["realtime_factor"]), 3)
-        rows.append(("real-time factor", f"{factor} (simulated over wall time)"))
+        rows.append(("real-time factor", f"{factor} (simulated time over wall time)"))
     return rows
 
 
 def provenance(report: CaseReport) -> list[tuple[str, str]]:
     """Versions, seeds, settings and the hash of the definition."""
-    system = report.system
-    known: dict[str, Any] = {
-        "turbine": system.turbine.name,
-        "definition_sha256": system.turbine.content_hash,
-        "foundation": system.foundation.name,
-        "elements": system.chain.elements,
-        "offwind_pin_version": metadata.version("offwind-pin"),
-        "pinocchio_version": metadata.version("pin"),
-    }
+    about = report.structure.attrs
+    names = ("turbine", "definition_sha256", "foundation", "elements")
+    known: dict[str, Any] = {name: about[name] for name in names}
+    known |= {name: report.case[name] for name in ("offwind_pin_version", "pinocchio_version")}
     if report.histories is not None:
         known |= report.histories.attrs
         if known.get("wave_seed") == -1:
             del known["wave_seed"]
-    known["sea"] = describe_sea(system)
-    if report.wind is not None:
-        known["seed of the synthetic wind"] = report.wind.generator.wind_seed
+    known["sea"] = about["sea_in_words"]
+    wind = report.part("wind")
+    if wind is not None:
+        known["seed of the synthetic wind"] = wind.attrs["seed"]
     ordered = [key for key in _PROVENANCE_NAMES if key in known]
     others = [key for key in known if key not in _PROVENANCE_NAMES and key not in _DESCRIPTIVE]
     return [(_PROVENANCE_NAMES.get(key, key), str(known[key])) for key in ordered + others]

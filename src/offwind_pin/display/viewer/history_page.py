@@ -11,12 +11,11 @@ import numpy as np
 import xarray as xr
 from markupsafe import Markup
 from numpy.typing import NDArray
-from pydantic import TypeAdapter
 
 from offwind_pin.base.definition import Array
 from offwind_pin.base.whole_files import write_text
-from offwind_pin.definitions.turbine import RigidBodyRNA, RotorNacelleRNA
 from offwind_pin.display.report.templates import environment
+from offwind_pin.display.rotor_nacelle import rotor_nacelle
 from offwind_pin.display.viewer.history_frames import Frames, frames, outline
 from offwind_pin.display.viewer.meshcat_recorder import Recorder, viewer_licence, viewer_script
 from offwind_pin.display.viewer.scene import (
@@ -136,10 +135,7 @@ def draw_scene(view: Any, results: xr.Dataset, shown: Frames) -> dict[str, Any]:
     rings = np.array([circle(r, z) for z, r in zip(height, radius, strict=True)])
     wall = loft(rings, capped=False)
     set_mesh(view["structure"]["wall"], wall, np.tile(PLAIN, (len(wall.vertices), 1)))
-    rna: RigidBodyRNA | RotorNacelleRNA = TypeAdapter(RigidBodyRNA | RotorNacelleRNA).validate_json(
-        str(results.attrs["rotor_nacelle"])
-    )
-    for name, mesh in rna_meshes(rna, 2 * float(radius[-1])).items():
+    for name, mesh in rna_meshes(rotor_nacelle(results), 2 * float(radius[-1])).items():
         set_mesh(view["structure"]["rna"][name], mesh, RNA_COLOUR)
     draw_arrows(view, shown)
     mudline = float(results.attrs["mudline_m"])
@@ -312,10 +308,8 @@ def top_curve(shown: Frames) -> tuple[str, Array]:
 
 def history_look(results: xr.Dataset, shown: Frames) -> dict[str, Any]:
     """Where the camera stands, for the page's script: directions as numbers, lengths in m."""
-    rna: RigidBodyRNA | RotorNacelleRNA = TypeAdapter(RigidBodyRNA | RotorNacelleRNA).validate_json(
-        str(results.attrs["rotor_nacelle"])
-    )
-    points = np.concatenate([mesh.vertices for mesh in rna_meshes(rna, 6.0).values()])
+    meshes = rna_meshes(rotor_nacelle(results), 6.0)
+    points = np.concatenate([mesh.vertices for mesh in meshes.values()])
     azimuth, elevation = np.radians(_VIEW_DEG)
     level = np.cos(elevation)
     # The corner of the mudline nearest to the camera appears below its middle, and enlarged.

@@ -9,11 +9,10 @@ import matplotlib as mpl
 import numpy as np
 import xarray as xr
 from markupsafe import Markup
-from pydantic import TypeAdapter
 
 from offwind_pin.base.mode_labels import mode_family, mode_name
-from offwind_pin.definitions.turbine import RigidBodyRNA, RotorNacelleRNA
 from offwind_pin.display.report.templates import environment
+from offwind_pin.display.rotor_nacelle import rotor_nacelle
 from offwind_pin.display.viewer.history_page import PLAIN, colour_ramp
 from offwind_pin.display.viewer.meshcat_recorder import Recorder, viewer_licence, viewer_script
 from offwind_pin.display.viewer.mode_frames import Shapes, shapes
@@ -86,14 +85,6 @@ def render_modes(results: xr.Dataset, labels: list[str] | None = None) -> str:
             viewer_script=Markup(viewer_script()),  # noqa: S704 (from the package)
         )
     )
-
-
-def rotor_nacelle(results: xr.Dataset) -> RigidBodyRNA | RotorNacelleRNA:
-    """The rotor-nacelle assembly as results carry it."""
-    adapter: TypeAdapter[RigidBodyRNA | RotorNacelleRNA] = TypeAdapter(
-        RigidBodyRNA | RotorNacelleRNA
-    )
-    return adapter.validate_json(str(results.attrs["rotor_nacelle"]))
 
 
 def draw_places(view: Any, results: xr.Dataset, shown: Shapes) -> None:

@@ -23,6 +23,7 @@ from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError
 from offwind_pin.base.mode_labels import mode_family, mode_name
 from offwind_pin.base.whole_files import whole_file
+from offwind_pin.display.rotor_nacelle import rotor_nacelle
 from offwind_pin.display.viewer.history_frames import Frames, outline
 from offwind_pin.display.viewer.history_page import (
     ARROW_SHARE,
@@ -42,7 +43,7 @@ from offwind_pin.display.viewer.history_page import (
     top_curve,
 )
 from offwind_pin.display.viewer.mode_frames import RING, Shapes
-from offwind_pin.display.viewer.modes_page import modes_look, rotor_nacelle
+from offwind_pin.display.viewer.modes_page import modes_look
 from offwind_pin.display.viewer.painter import Camera, Surface, paint
 from offwind_pin.display.viewer.scene import AXIS_COLOUR, MUDLINE_COLOUR, RNA_COLOUR, WATER_COLOUR
 from offwind_pin.display.wording import MINUS, fixed, foundation_name, number, water_level_name

@@ -57,7 +57,7 @@ class View:
                 "Nothing moves in these.",
             )
         if self.moves and self.labels is not None:
-            allowed = "none for a time history, which holds no modes"
+            allowed = "none for a time history without the modes of its case"
             raise InputError("--modes", ",".join(self.labels), allowed, "Leave it out.")
         if not self.moves and self.start is not None:
             allowed = "none for modes, which have no beginning"

@@ -8,29 +8,35 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
-from numba import types
 from numba.extending import overload
-from numpy.typing import NDArray
 
 from offwind_pin.base.definition import Array
-from offwind_pin.base.kernels import announce, exchanging_kernels
+from offwind_pin.base.kernels import announce
+from offwind_pin.base.records import Count, Record
 from offwind_pin.dynamics.acting_loads import all_loads, grounding, smooth_ramp
-from offwind_pin.dynamics.compiled.chain_arrays import ChainArrays, chain_arrays
-from offwind_pin.dynamics.compiled.newton_matrix import correction, factorise, unstable_directions
-from offwind_pin.dynamics.compiled.recorder_arrays import (
+from offwind_pin.dynamics.compiled.assembly import make_model
+from offwind_pin.dynamics.compiled.model import Data, Factorisation, Model, State
+from offwind_pin.dynamics.compiled.newton_matrix import (
+    factorise,
+    factorise_kernel,
+    solve,
+    solve_kernel,
+)
+from offwind_pin.dynamics.compiled.recorder import (
     Cuts,
-    RecorderArrays,
+    Kernels,
+    Recorder,
     Segments,
     make_cuts,
     make_recorder,
     make_segments,
     make_soil_nodes,
 )
-from offwind_pin.dynamics.compiled.recording import take_note
-from offwind_pin.dynamics.compiled.residual import balance, commit
+from offwind_pin.dynamics.compiled.recording import at_cuts, note_kernel, take_note
+from offwind_pin.dynamics.compiled.residual import commit, evaluate, evaluate_kernel
 from offwind_pin.dynamics.resting_axis import RestingAxis
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.earthquake.ground_motion import GroundMotion
@@ -38,24 +44,38 @@ from offwind_pin.loads.point_load import PointLoad, nothing_stored
 from offwind_pin.loads.python_load import PythonLoad, as_kernel_load
 from offwind_pin.loads.root_restraint import as_kernel_restraint
 from offwind_pin.solvers import generalized_alpha
+from offwind_pin.solvers.generalized_alpha import residual as evaluated
+from offwind_pin.structure.chain import NDArrayInt
 
 if TYPE_CHECKING:
     from offwind_pin.dynamics.reference.equations import Equations
 
 
-class Run(NamedTuple):
-    """A chain and its recorder: what generalised-alpha works on."""
+class Run(Record):
+    """A chain and its recorder, and its kernels by address: what generalised-alpha works on."""
 
-    chain: ChainArrays
-    recorder: RecorderArrays
+    model: Model
+    data: Data
+    state: State
+    factors: Factorisation
+    recorder: Recorder
+    evaluate: Count
+    factorise: Count
+    solve: Count
+    take_note: Count
 
 
 class CompiledChain:
     """A system under loads, for statics and motion in time.
 
+    Chains copy and pickle with their state. Two threads may work on copies at the same time.
+
     Attributes
     ----------
-    arrays : the system as arrays, with the state last evaluated
+    model : the system as plain arrays; nothing changes it
+    data : of the state last evaluated
+    state : with the memory of soil and foundation, which :meth:`residual` and others take from it
+    factors : the iteration matrix last factorised
     loads : soil, water and what was given, in compiled form
     soil : nodes at which the foundation's soil acts
     ground_motion : of the ground below, or None
@@ -72,15 +92,25 @@ class CompiledChain:
         self.system = system
         self.ramp_time = ramp_time
         self.ground_motion = ground_motion
-        self._given = loads
+        self._given = tuple(loads)
         everything = all_loads(system, loads)
         self.loads = [as_kernel_load(load) for load in everything]
         self.soil = make_soil_nodes(everything, system.foundation.soil)
-        self._root = as_kernel_restraint(system.foundation.root)
+        root = as_kernel_restraint(system.foundation.root)
+        self._root = root  # known to the model by its place in a register only
         ground = grounding(system, everything, ground_motion)
-        self.arrays = chain_arrays(system, self.loads, self._root, ground)
+        self.model = make_model(system, self.loads, root, ground)
+        self.data, self.state = Data.of(self.model), State.of(self.model)
+        self.factors = Factorisation.of(self.model)
 
-    def rows(self, time: Array) -> Array:
+    def __reduce__(self) -> tuple[Any, ...]:
+        arguments = (self.system, self._given, self.ramp_time, self.ground_motion)
+        return type(self), arguments, self.state
+
+    def __setstate__(self, state: State) -> None:
+        self.state.set(state)
+
+    def time_inputs(self, time: Array) -> Array:
         """(t, 1 + w) time, the ground's motion, and the loads' numbers that depend on time alone.
 
         time : (t,) in s
@@ -91,97 +121,154 @@ class CompiledChain:
             parts.insert(1, self.ground_motion.motion(time).reshape(len(time), -1))
         return np.ascontiguousarray(np.hstack(parts))
 
-    def residual(self, row: Array, q: Array, v: Array, a: Array) -> Array:
-        """(nv,) generalised forces out of balance, in N and N m; row from :meth:`rows`."""
-        with self.running():
-            return balance(self.arrays, row, q, v, a).copy()
+    def residual(self, time_inputs: Array, q: Array, v: Array, a: Array) -> Array:
+        """(nv,) generalised forces out of balance, in N and N m.
 
-    def factorise(self, row: Array, q: Array, v: Array, a: Array, by_v: float, by_a: float) -> None:
+        time_inputs : one of :meth:`time_inputs`
+        """
+        self._evaluate(time_inputs, q, v, a)
+        return self.data.residual.copy()
+
+    def factorise(
+        self, time_inputs: Array, q: Array, v: Array, a: Array, dv_dq: float, da_dq: float
+    ) -> None:
         """Make the iteration matrix about a state; both factors zero give the static tangent."""
+        self._evaluate(time_inputs, q, v, a)
         with self.running():
-            balance(self.arrays, row, q, v, a)
-            factorise(self.arrays, row, by_v, by_a)
+            factorise(self.model, self.data, self.state, self.factors, time_inputs, dv_dq, da_dq)
 
     def correction(self, residual: Array) -> Array:
         """(nv,) solution of the iteration matrix for a right side."""
-        with exchanging_kernels():
-            return correction(self.arrays, residual).copy()
+        solve(self.model, self.factors, np.ascontiguousarray(residual, dtype=float))
+        return self.factors.solution.copy()
+
+    def _evaluate(self, time_inputs: Array, q: Array, v: Array, a: Array) -> None:
+        state = self.state
+        state.q[:], state.v[:], state.a[:], state.clock[0] = q, v, a, time_inputs[0]
+        with self.running():
+            evaluate(self.model, self.data, state, time_inputs)
 
     @property
     def memory(self) -> Array:
         """(m,) what soil and foundation keep of their past; a copy."""
-        return self.arrays.memory.copy()
+        return self.state.memory.copy()
 
     @memory.setter
     def memory(self, past: Array) -> None:
-        self.arrays.memory[:] = past
+        self.state.memory[:] = past
 
-    def at_rest(self, row: Array, q: Array, height: Array) -> RestingAxis:
+    def at_rest(self, time_inputs: Array, q: Array, height: Array) -> RestingAxis:
         """Axis and section loads of a state of rest, which soil and foundation then remember."""
         rest = np.zeros_like(q)
-        self.residual(row, q, rest, rest)
-        with self.running():
-            commit(self.arrays, row, q)
-        record = self.record(self.sections(height), row, q, rest, rest)
-        direction = self.arrays.rotation[self.system.chain.body_at(height), :, 2]
-        return RestingAxis(record.displacement[0], direction, record.section_load[0])
+        self._evaluate(time_inputs, q, rest, rest)
+        if self._committing:
+            with self.running():
+                commit(self.model, self.data, self.state, time_inputs)
+            self._evaluate(time_inputs, q, rest, rest)
+        cuts = make_cuts(self.system, self.model, np.array(height, dtype=float))
+        displacement, acceleration = np.zeros((2, len(height), 3))
+        load = np.zeros((len(height), 6))
+        at_cuts(self.model, self.data, cuts, displacement, acceleration, load)
+        return RestingAxis(displacement, self.data.rotation[cuts.body, :, 2], load)
+
+    @property
+    def _committing(self) -> bool:
+        """Whether anything keeps of its past."""
+        return bool(np.any(self.model.commits)) or self.model.restraint_commit != 0
 
     def start(self, q: Array) -> Array:
         """(6, nv) vectors of generalised-alpha at time 0, at rest at joint displacements."""
-        return generalized_alpha.start(self, self.rows(np.zeros(1))[0], q, np.zeros_like(q))
+        time_inputs = self.time_inputs(np.zeros(1))[0]
+        return generalized_alpha.start(self, time_inputs, q, np.zeros_like(q))
 
     def advance(
         self,
-        recorder: RecorderArrays,
+        recorder: Recorder,
         method: generalized_alpha.Method,
         vectors: Array,
         instants: Array,
         last: Array,
     ) -> tuple[int, int, float]:
         """Generalised-alpha's steps to the instants (t,) in s, recorded; see :func:`advance`."""
-        rows = self.rows(instants)
+        time_inputs = self.time_inputs(instants)
         with self.running():
             result: tuple[int, int, float] = generalized_alpha.compiled_advance(
-                Run(self.arrays, recorder), method, vectors, rows, last
+                self.run(recorder), method, vectors, time_inputs, last
             )
         return result
 
     def unstable_directions(self) -> int:
-        """Number of motions away from the factorised static state that need no work."""
-        with exchanging_kernels():
-            return int(unstable_directions(self.arrays))
+        """Number of motions away from the factorised static state that need no work.
+
+        By Sylvester's law of inertia it is the number of negative eigenvalues of the pivot blocks,
+        symmetrised.
+        """
+        roots, node = self.model.roots, self.model.node_joints
+        pivot = self.factors.pivot
+        blocks = (pivot[:1, :roots, :roots], pivot[1:, :node, :node], self.factors.tmd_pivot)
+        return sum(
+            int(np.sum(np.linalg.eigvalsh((block + block.transpose(0, 2, 1)) / 2) <= 0))
+            for block in blocks
+            if block.size
+        )
 
     def sections(
         self, height: Array, segments: Sequence[tuple[float, float]] = ()
     ) -> tuple[Cuts, Segments]:
         """Cuts at heights (m,) in m for section loads and motions, and segments between them."""
-        cuts = make_cuts(self.system, self.arrays, np.array(height, dtype=float))
-        return cuts, make_segments(self.system, self.arrays, cuts, segments)
+        cuts = make_cuts(self.system, self.model, np.array(height, dtype=float))
+        return cuts, make_segments(self.system, self.model, cuts, segments)
 
     def recorder(
         self, sections: tuple[Cuts, Segments], every: int = 1, records: int = 1
-    ) -> RecorderArrays:
-        """An empty recorder that takes every so manieth step, for a number of records."""
-        return make_recorder(self.arrays, *sections, self.soil, self.stores, every, records)
+    ) -> Recorder:
+        """An empty recorder of every n-th step, for a number of records."""
+        kernels = Kernels(
+            energies=self._energies,
+            commit=commit.address if self._committing else 0,
+            at_cuts=at_cuts.address,
+        )
+        return make_recorder(self.model, *sections, self.soil, kernels, every, records)
 
     @property
-    def stores(self) -> NDArray[np.bool_]:
-        """(L,) whether each load stores energy, and so does no work of its own."""
+    def _energies(self) -> NDArrayInt:
+        """(L,) addresses of the loads' energy kernels; 0 for a load that stores none."""
         kernels = [load.energy_kernel for load in self.loads]
-        return np.array([kernel is not nothing_stored for kernel in kernels], dtype=np.bool_)
+        return np.array(
+            [0 if kernel is nothing_stored else kernel.address for kernel in kernels], dtype=np.intp
+        )
+
+    @property
+    def stores(self) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
+        """(L,) whether each load stores energy, and so does no work of its own."""
+        return np.array([load.energy_kernel is not nothing_stored for load in self.loads], bool)
+
+    def run(self, recorder: Recorder) -> Run:
+        """What generalised-alpha works on."""
+        return Run(
+            self.model,
+            self.data,
+            self.state,
+            self.factors,
+            recorder,
+            evaluate.address,
+            factorise.address,
+            solve.address,
+            take_note.address,
+        )
 
     def record(
-        self, sections: tuple[Cuts, Segments], row: Array, q: Array, v: Array, a: Array
-    ) -> RecorderArrays:
+        self, sections: tuple[Cuts, Segments], time_inputs: Array, q: Array, v: Array, a: Array
+    ) -> Recorder:
         """One record of a state: motions and section loads at cuts, and energies."""
         recorder = self.recorder(sections)
-        self.note(recorder, row, q, v, a)
+        self.note(recorder, time_inputs, q, v, a)
         return recorder
 
     def note(
         self,
-        recorder: RecorderArrays,
-        row: Array,
+        recorder: Recorder,
+        time_inputs: Array,
         q: Array,
         v: Array,
         a: Array,
@@ -189,9 +276,10 @@ class CompiledChain:
         iterations: int = 0,
     ) -> None:
         """Let a recorder take note of a state; the residual is over a scale."""
+        self._evaluate(time_inputs, q, v, a)
+        size = float(np.max(np.abs(self.data.residual))) / scale
         with self.running():
-            size = float(np.max(np.abs(balance(self.arrays, row, q, v, a)))) / scale
-            take_note(self.arrays, recorder, row, q, v, iterations, size)
+            take_note(self.model, self.data, self.state, recorder, time_inputs, iterations, size)
 
     def equations(self) -> Equations:
         """The same equations of motion by Pinocchio."""
@@ -205,11 +293,10 @@ class CompiledChain:
         return self.system.chain.joint_name[worst], float(abs(residual[worst]))
 
     @contextmanager
-    def running(self) -> Iterator[None]:
+    def running(self) -> Iterator[Self]:
         """Calls of compiled code; in the end raises what a load of the user's own raised."""
         try:
-            with exchanging_kernels():
-                yield
+            yield self
         finally:
             for load in self.loads:
                 if isinstance(load, PythonLoad) and load.failure is not None:
@@ -217,37 +304,52 @@ class CompiledChain:
                     raise failure
 
 
+_evaluate, _factorise = evaluate_kernel.call, factorise_kernel.call
+_solve, _take_note = solve_kernel.call, note_kernel.call
+
+
 def _is_run(system: Any) -> bool:
-    return isinstance(system, types.NamedTuple) and system.instance_class is Run
+    return system is Run.numba_type()
 
 
 @overload(generalized_alpha.residual)
-def _residual(system: Any, row: Any, q: Any, v: Any, a: Any) -> Any:
+def _overload_residual(system: Any, row: Any, q: Any, v: Any, a: Any) -> Any:
     def of_run(system: Any, row: Any, q: Any, v: Any, a: Any) -> Any:
-        return balance(system.chain, row, q, v, a)
+        state = system.state
+        for i in range(len(q)):
+            state.q[i], state.v[i], state.a[i] = q[i], v[i], a[i]
+        state.clock[0] = row[0]
+        _evaluate(system.evaluate, (system.model, system.data, state, row))
+        return system.data.residual
 
     return of_run if _is_run(system) else None
 
 
 @overload(generalized_alpha.factorise)
-def _factorise(system: Any, row: Any, q: Any, v: Any, a: Any, by_v: Any, by_a: Any) -> Any:
-    def of_run(system: Any, row: Any, q: Any, v: Any, a: Any, by_v: Any, by_a: Any) -> Any:
-        factorise(system.chain, row, by_v, by_a)
+def _overload_factorise(
+    system: Any, row: Any, q: Any, v: Any, a: Any, dv_dq: Any, da_dq: Any
+) -> Any:
+    def of_run(system: Any, row: Any, q: Any, v: Any, a: Any, dv_dq: Any, da_dq: Any) -> Any:
+        evaluated(system, row, q, v, a)
+        arguments = (system.model, system.data, system.state, system.factors, row, dv_dq, da_dq)
+        _factorise(system.factorise, arguments)
 
     return of_run if _is_run(system) else None
 
 
 @overload(generalized_alpha.correction)
-def _correction(system: Any, r: Any) -> Any:
+def _overload_correction(system: Any, r: Any) -> Any:
     def of_run(system: Any, r: Any) -> Any:
-        return correction(system.chain, r)
+        _solve(system.solve, (system.model, system.factors, r))
+        return system.factors.solution
 
     return of_run if _is_run(system) else None
 
 
 @overload(generalized_alpha.observe)
-def _observe(system: Any, row: Any, state: Any, iterations: Any, size: Any) -> Any:
+def _overload_observe(system: Any, row: Any, state: Any, iterations: Any, size: Any) -> Any:
     def of_run(system: Any, row: Any, state: Any, iterations: Any, size: Any) -> Any:
-        take_note(system.chain, system.recorder, row, state[0], state[1], iterations, size)
+        model, data, recorder = system.model, system.data, system.recorder
+        _take_note(system.take_note, (model, data, system.state, recorder, row, iterations, size))
 
     return of_run if _is_run(system) else None

@@ -9,162 +9,114 @@ from __future__ import annotations
 
 import math
 
-from offwind_pin.base.definition import Array
-from offwind_pin.base.kernels import kernel
-from offwind_pin.dynamics.base_excitation import BASE
-from offwind_pin.dynamics.compiled.base_motion import ACCELERATION, DISPLACED, VELOCITY, of_ground
-from offwind_pin.dynamics.compiled.chain_arrays import ChainArrays
-
-Vector = tuple[float, float, float]
-
-
-@kernel
-def cross(a: Vector, b: Vector) -> Vector:
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-
-
-@kernel
-def dot(a: Vector, b: Vector) -> float:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+from offwind_pin.base.kernels import inlined
+from offwind_pin.dynamics.compiled.model import Data, Model, State
+from offwind_pin.dynamics.compiled.vectors import (
+    add,
+    axis_of,
+    cross,
+    rigid_point_motion,
+    row_of,
+    scale,
+    store,
+    subtract,
+)
 
 
-@kernel
-def add(a: Vector, b: Vector) -> Vector:
-    return (a[0] + b[0], a[1] + b[1], a[2] + b[2])
+@inlined
+def move_bodies(model: Model, data: Data, state: State) -> None:
+    """Set position, orientation, velocity and acceleration of every body, and the joints' columns.
 
-
-@kernel
-def subtract(a: Vector, b: Vector) -> Vector:
-    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
-
-
-@kernel
-def scale(factor: float, a: Vector) -> Vector:
-    return (factor * a[0], factor * a[1], factor * a[2])
-
-
-@kernel
-def row_of(values: Array, i: int) -> Vector:
-    return (values[i, 0], values[i, 1], values[i, 2])
-
-
-@kernel
-def store(values: Array, i: int, a: Vector) -> None:
-    values[i, 0], values[i, 1], values[i, 2] = a
-
-
-@kernel
-def carried(
-    arm: Vector, velocity: Vector, spin: Vector, acceleration: Vector, spin_rate: Vector
-) -> tuple[Vector, Vector]:
-    """Velocity and acceleration of a point of a rigid body, an arm away from one that has these."""
-    around = cross(spin, arm)
-    there = add(acceleration, add(cross(spin_rate, arm), cross(spin, around)))
-    return add(velocity, around), there
-
-
-@kernel
-def move(s: ChainArrays, row: Array, q: Array, v: Array, a: Array) -> None:
-    """Set place, orientation, velocity and acceleration of every body, and the joints' columns."""
+    The base moves with the ground.
+    """
+    q, v, a = state.q, state.v, state.a
+    ground, joint, rotation, length = data.ground, data.joint, data.rotation, model.length
+    base = len(ground) - 1
     x, y, z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
-    place = add((0.0, 0.0, s.base), of_ground(s, row, BASE, DISPLACED))
-    velocity = of_ground(s, row, BASE, VELOCITY)
-    acceleration = of_ground(s, row, BASE, ACCELERATION)
-    spin = spin_rate = (0.0, 0.0, 0.0)
+    position = (ground[base, 0], ground[base, 1], model.base + ground[base, 2])
+    velocity = (ground[base, 3], ground[base, 4], ground[base, 5])
+    acceleration = (ground[base, 6], ground[base, 7], ground[base, 8])
+    angular_velocity = angular_acceleration = (0.0, 0.0, 0.0)
     dof = 0
-    for k in range(len(s.rise) + 1):
-        slides = 3 if k == 0 else s.node_joints - 3
-        turns = k > 0 or s.roots > 0
+    for k in range(len(length) + 1):
+        count = model.node_joints if k > 0 else model.roots
         if k > 0:
-            arm = scale(s.rise[k - 1], z)
-            velocity, acceleration = carried(arm, velocity, spin, acceleration, spin_rate)
-            place = add(place, arm)
-        if turns:
-            for i in range(slides):
-                axis = x if i == 0 else (y if i == 1 else z)
-                slip, rate, second = q[dof], v[dof], a[dof]
-                arm = scale(slip, axis)
-                velocity, acceleration = carried(arm, velocity, spin, acceleration, spin_rate)
-                place = add(place, arm)
-                velocity = add(velocity, scale(rate, axis))
-                acceleration = add(acceleration, scale(2 * rate, cross(spin, axis)))
-                acceleration = add(acceleration, scale(second, axis))
+            arm = scale(length[k - 1], z)
+            velocity, acceleration = rigid_point_motion(
+                arm, velocity, angular_velocity, acceleration, angular_acceleration
+            )
+            position = add(position, arm)
+        for i in range(count):
+            turning = i - (count - 3)
+            kind = turning if turning >= 0 else i
+            axis = x if kind == 0 else (y if kind == 1 else z)
+            if turning < 0:
+                arm, rate = scale(q[dof], axis), scale(v[dof], axis)
+                velocity, acceleration = rigid_point_motion(
+                    arm, velocity, angular_velocity, acceleration, angular_acceleration
+                )
+                position = add(position, arm)
+                velocity = add(velocity, rate)
+                coriolis = scale(2 * v[dof], cross(angular_velocity, axis))
+                acceleration = add(add(acceleration, coriolis), scale(a[dof], axis))
                 for j in range(3):
-                    s.joint[dof, j], s.joint[dof, 3 + j] = axis[j], 0.0
-                dof += 1
-            for i in range(3):
-                axis = x if i == 0 else (y if i == 1 else z)
-                rate = v[dof]
-                spin_rate = add(spin_rate, scale(a[dof], axis))
-                spin_rate = add(spin_rate, scale(rate, cross(spin, axis)))
-                spin = add(spin, scale(rate, axis))
-                lever = cross(place, axis)
+                    joint[dof, j], joint[dof, 3 + j] = axis[j], 0.0
+            else:
+                turned = add(angular_acceleration, scale(a[dof], axis))
+                angular_acceleration = add(turned, scale(v[dof], cross(angular_velocity, axis)))
+                angular_velocity = add(angular_velocity, scale(v[dof], axis))
+                lever = cross(position, axis)
                 for j in range(3):
-                    s.joint[dof, j], s.joint[dof, 3 + j] = lever[j], axis[j]
+                    joint[dof, j], joint[dof, 3 + j] = lever[j], axis[j]
                 cosine, sine = math.cos(q[dof]), math.sin(q[dof])
-                if i == 0:
-                    y, z = (
-                        add(scale(cosine, y), scale(sine, z)),
-                        subtract(scale(cosine, z), scale(sine, y)),
-                    )
-                elif i == 1:
-                    z, x = (
-                        add(scale(cosine, z), scale(sine, x)),
-                        subtract(scale(cosine, x), scale(sine, z)),
-                    )
+                one, two = (y, z) if kind == 0 else ((z, x) if kind == 1 else (x, y))
+                first = add(scale(cosine, one), scale(sine, two))
+                second = subtract(scale(cosine, two), scale(sine, one))
+                if kind == 0:
+                    y, z = first, second
+                elif kind == 1:
+                    z, x = first, second
                 else:
-                    x, y = (
-                        add(scale(cosine, x), scale(sine, y)),
-                        subtract(scale(cosine, y), scale(sine, x)),
-                    )
-                dof += 1
-        store(s.origin, k, place)
-        store(s.velocity, k, velocity)
-        store(s.spin, k, spin)
-        store(s.acceleration, k, acceleration)
-        store(s.spin_rate, k, spin_rate)
+                    x, y = first, second
+            dof += 1
+        store(data.position, k, position)
+        store(data.velocity, k, velocity)
+        store(data.angular_velocity, k, angular_velocity)
+        store(data.acceleration, k, acceleration)
+        store(data.angular_acceleration, k, angular_acceleration)
         for j in range(3):
-            s.rotation[k, j, 0], s.rotation[k, j, 1], s.rotation[k, j, 2] = x[j], y[j], z[j]
+            rotation[k, j, 0], rotation[k, j, 1], rotation[k, j, 2] = x[j], y[j], z[j]
 
 
-@kernel
-def move_points(s: ChainArrays, row: Array) -> None:
+@inlined
+def move_points(model: Model, data: Data) -> None:
     """Set the motion of the loaded points.
 
     Where they meet the ground, displacement and velocity are those relative to it.
     """
-    for i in range(len(s.point_body)):
-        k = s.point_body[i]
-        axis = axis_of(s.rotation, k)
-        arm = scale(s.point_offset[i], axis)
-        place = add(row_of(s.origin, k), arm)
-        velocity, acceleration = carried(
+    motion, ground, rotation = data.motion, data.ground, data.rotation
+    point_body, offset, height = model.point_body, model.point_offset, model.point_height
+    for i in range(len(point_body)):
+        k = point_body[i]
+        axis = axis_of(rotation, k)
+        arm = scale(offset[i], axis)
+        position = add(row_of(data.position, k), arm)
+        angular_velocity = row_of(data.angular_velocity, k)
+        velocity, acceleration = rigid_point_motion(
             arm,
-            row_of(s.velocity, k),
-            row_of(s.spin, k),
-            row_of(s.acceleration, k),
-            row_of(s.spin_rate, k),
+            row_of(data.velocity, k),
+            angular_velocity,
+            row_of(data.acceleration, k),
+            row_of(data.angular_acceleration, k),
         )
         for j in range(3):
-            s.motion[i, j] = s.motion[i, 3 + j] = place[j]
-            s.motion[i, 6 + j] = velocity[j]
-            s.motion[i, 9 + j] = axis[j]
-            s.motion[i, 12 + j] = acceleration[j]
-            s.motion[i, 18 + j] = s.spin[k, j]
-        turn = s.rotation[k]
-        s.motion[i, 15] = (turn[2, 1] - turn[1, 2]) / 2
-        s.motion[i, 16] = (turn[0, 2] - turn[2, 0]) / 2
-        s.motion[i, 17] = (turn[1, 0] - turn[0, 1]) / 2
-        s.motion[i, 5] -= s.point_height[i]
-        if s.ground_level[i] >= 0:
-            displaced = of_ground(s, row, i, DISPLACED)
-            moving = of_ground(s, row, i, VELOCITY)
-            for j in range(3):
-                s.motion[i, 3 + j] -= displaced[j]
-                s.motion[i, 6 + j] -= moving[j]
-
-
-@kernel
-def axis_of(rotation: Array, k: int) -> Vector:
-    """Unit vector along body k of those with orientations (n, 3, 3), upwards."""
-    return (rotation[k, 0, 2], rotation[k, 1, 2], rotation[k, 2, 2])
+            motion[i, j] = position[j]
+            undeformed = height[i] if j == 2 else 0.0
+            motion[i, 3 + j] = position[j] - undeformed - ground[i, j]
+            motion[i, 6 + j] = velocity[j] - ground[i, 3 + j]
+            motion[i, 9 + j] = axis[j]
+            motion[i, 12 + j] = acceleration[j]
+            motion[i, 18 + j] = angular_velocity[j]
+        motion[i, 15] = (rotation[k, 2, 1] - rotation[k, 1, 2]) / 2
+        motion[i, 16] = (rotation[k, 0, 2] - rotation[k, 2, 0]) / 2
+        motion[i, 17] = (rotation[k, 1, 0] - rotation[k, 0, 1]) / 2

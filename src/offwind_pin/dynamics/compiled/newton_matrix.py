@@ -1,6 +1,6 @@
 """The iteration matrix of Newton's method, factorised and applied in O(N).
 
-Written in spatial velocities, the matrix by_a M + by_v D + K of a chain is
+Written in spatial velocities, the matrix da_dq M + dv_dq D + K of a chain is
 
     A = diag(joints) + S' B S - (turning joint axes),
 
@@ -12,156 +12,186 @@ matrices B in place of the bodies' inertias, and springs in the joints. Nothing 
 from __future__ import annotations
 
 import numpy as np
+from numba import types
 
 from offwind_pin.base.definition import Array
-from offwind_pin.base.kernels import kernel
-from offwind_pin.dynamics.compiled.chain_arrays import ChainArrays
-from offwind_pin.dynamics.compiled.forward_kinematics import Vector, axis_of, row_of
-from offwind_pin.dynamics.compiled.residual import body_needs, rna_needs
-from offwind_pin.dynamics.compiled.spatial import add_arm, add_inertia
-from offwind_pin.dynamics.compiled.tuned_mass import (
-    eliminate_sliders,
-    slide_alone,
-    slide_along,
-    unstable_sliders,
+from offwind_pin.base.kernels import exchangeable, inlined, inner
+from offwind_pin.base.records import part
+from offwind_pin.dynamics.compiled.model import Data, Factorisation, Model, State
+from offwind_pin.dynamics.compiled.residual import (
+    DATA,
+    MODEL,
+    ROW,
+    STATE,
+    constants_of,
+    inertial_wrench,
+    rna_wrench,
 )
+from offwind_pin.dynamics.compiled.vectors import add_arm, add_inertia, axis_of, row_of, scale
+from offwind_pin.loads.point_load import tangent_kernel
+
+FACTORISATION = Factorisation.numba_type()
+
+factorise_kernel = exchangeable(
+    types.void(MODEL, DATA, STATE, FACTORISATION, ROW, types.float64, types.float64), nogil=True
+)
+solve_kernel = exchangeable(types.void(MODEL, FACTORISATION, ROW), nogil=True)
+tmd_eliminate_kernel = exchangeable(
+    types.void(MODEL, DATA, FACTORISATION, types.float64, types.float64)
+)
+"""Decorator for ``kernel(model, data, factors, dv_dq, da_dq)``; see :mod:`tuned_mass`."""
+tmd_before_kernel = exchangeable(types.void(MODEL, FACTORISATION, ROW))
+"""Decorator for ``kernel(model, factors, rhs)``: the dampers on a carrier at rest."""
+tmd_after_kernel = exchangeable(types.void(MODEL, FACTORISATION))
+"""Decorator for ``kernel(model, factors)``: what the twists of the carriers add."""
+
+_tangents = tangent_kernel.call
+_tmd_eliminate, _tmd_before = tmd_eliminate_kernel.call, tmd_before_kernel.call
+_tmd_after = tmd_after_kernel.call
 
 
-@kernel
-def factorise(s: ChainArrays, row: Array, by_v: float, by_a: float) -> None:
-    """Make the iteration matrix anew about the state last evaluated by ``balance``.
+@factorise_kernel
+def factorise(
+    model: Model,
+    data: Data,
+    state: State,
+    factors: Factorisation,
+    time_inputs: Array,
+    dv_dq: float,
+    da_dq: float,
+) -> None:
+    """Factorise the iteration matrix about an evaluated state.
 
-    by_v, by_a : derivatives of velocity and acceleration by displacement in the integrator's step,
-        in 1/s and 1/s2; both zero for statics, where the matrix is the exact tangent. In motion the
-        terms of the inertia forces that depend on velocity are left out.
+    data : of the state, as :func:`evaluate` set it
+    dv_dq, da_dq : derivatives of velocity and acceleration by displacement in the integrator's
+        step, in 1/s and 1/s2; both zero for statics, where the matrix is the exact tangent. In
+        motion the terms of the inertia forces that depend on velocity are left out.
     """
-    body_matrices(s, by_a)
-    load_matrices(s, row, by_v, by_a)
-    if len(s.slider_body) > 0:
-        eliminate_sliders(s, by_v, by_a)
-    eliminate(s, by_v)
+    body_matrices(model, data, factors, da_dq)
+    load_matrices(model, data, state, factors, time_inputs, dv_dq, da_dq)
+    if model.tmd.eliminate != 0:
+        _tmd_eliminate(model.tmd.eliminate, (model, data, factors, dv_dq, da_dq))
+    eliminate(model, data, factors, dv_dq)
 
 
-@kernel
-def correction(s: ChainArrays, right: Array) -> Array:
-    """(nv,) solution of the factorised system for a right side (nv,)."""
+@solve_kernel
+def solve(model: Model, factors: Factorisation, rhs: Array) -> None:
+    """Set the solution of the factorised system for a right side (nv,)."""
+    joint, carry, follow, pivot = factors.joint, factors.carry, factors.follow, factors.pivot
+    x, own, passed, tmd_body = factors.solution, factors.rhs, factors.tmd_passed, model.tmd.body
+    roots, node_joints, last = model.roots, model.node_joints, len(model.length)
     down = np.zeros(6)
-    x = s.solution
-    last = len(s.rise)
+    if model.tmd.before != 0:
+        _tmd_before(model.tmd.before, (model, factors, rhs))
     for k in range(last, -1, -1):
-        count = s.node_joints if k > 0 else s.roots
-        first = s.roots + s.node_joints * (k - 1) if k > 0 else 0
-        if len(s.slider_body) > 0:
-            slide_alone(s, right, k, down)
+        count = node_joints if k > 0 else roots
+        first = roots + node_joints * (k - 1) if k > 0 else 0
+        for d in range(len(tmd_body)):
+            if tmd_body[d] == k:
+                for j in range(6):
+                    down[j] += passed[d, j]
         for i in range(count):
-            lack = right[first + i]
+            value = rhs[first + i]
             for j in range(6):
-                lack -= s.joint_then[first + i, j] * down[j]
-            s.lack[i] = lack
+                value -= joint[first + i, j] * down[j]
+            own[i] = value
         for i in range(count):
             value = 0.0
             for j in range(count):
-                value += s.pivot[k, i, j] * s.lack[j]
+                value += pivot[k, i, j] * own[j]
             x[first + i] = value
         for i in range(count):
             for j in range(6):
-                down[j] += s.carry[first + i, j] * x[first + i]
-    down[:] = 0.0  # from here on the twist of the bodies, from the base upwards
+                down[j] += carry[first + i, j] * x[first + i]
+    for j in range(6):  # from here on the twist of the bodies, from the base upwards
+        down[j] = 0.0
     dof = 0
     for k in range(last + 1):
-        count = s.node_joints if k > 0 else s.roots
+        count = node_joints if k > 0 else roots
         for i in range(count):
             for j in range(6):
-                x[dof + i] -= s.follow[dof + i, j] * down[j]
+                x[dof + i] -= follow[dof + i, j] * down[j]
         for i in range(count):
             for j in range(6):
-                down[j] += s.joint_then[dof + i, j] * x[dof + i]
-        if len(s.slider_body) > 0:
-            slide_along(s, k, down)
+                down[j] += joint[dof + i, j] * x[dof + i]
+        for d in range(len(tmd_body)):
+            if tmd_body[d] == k:
+                for j in range(6):
+                    passed[d, j] = down[j]
         dof += count
-    return x
+    if model.tmd.after != 0:
+        _tmd_after(model.tmd.after, (model, factors))
 
 
-@kernel
-def unstable_directions(s: ChainArrays) -> int:
-    """Number of negative eigenvalues of the symmetric part of a factorised tangent.
-
-    By Sylvester's law of inertia it is that of its pivot blocks.
-    """
-    negative = 0
-    for k in range(len(s.rise) + 1):
-        count = s.node_joints if k > 0 else s.roots
-        if count > 0:
-            block = s.pivot[k, :count, :count].copy()
-            negative += int(np.sum(np.linalg.eigvalsh((block + block.T) / 2) <= 0))
-    return negative + unstable_sliders(s)
-
-
-@kernel
-def eliminate(s: ChainArrays, by_v: float) -> None:
-    """Eliminate the joints from the top down; each body's matrix then holds all above it as well.
-
-    The loop is in here because a call with all the arrays costs as much as a node.
-    """
-    block, inverse, follow = np.empty((6, 6)), np.empty((6, 6)), np.empty((6, 6))
-    turning = np.empty(6)
-    for k in range(len(s.rise), -1, -1):
-        count = s.node_joints if k > 0 else s.roots
-        first = s.roots + s.node_joints * (k - 1) if k > 0 else 0
-        matrix = s.articulated[k]
-        force = (s.wrench[k, 0], s.wrench[k, 1], s.wrench[k, 2])
-        moment = (s.wrench[k, 3], s.wrench[k, 4], s.wrench[k, 5])
+@inlined
+def eliminate(model: Model, data: Data, factors: Factorisation, dv_dq: float) -> None:
+    """Eliminate the joints from the top down; each body's matrix then includes all above it."""
+    axes, wrench, articulated, joint = data.joint, data.wrench, factors.articulated, factors.joint
+    carry, follow, pivot = factors.carry, factors.follow, factors.pivot
+    stiffness, damping = model.stiffness, model.damping
+    root_stiffness, root_damping = data.root_stiffness, data.root_damping
+    block, inverse, turning = np.empty((6, 6)), np.empty((6, 6)), np.empty(6)
+    back = np.empty((6, 6))
+    for k in range(len(articulated) - 1, -1, -1):
+        count = model.node_joints if k > 0 else model.roots
+        first = model.roots + model.node_joints * (k - 1) if k > 0 else 0
         for i in range(count):
             dof = first + i
-            axis_turn(s.joint[dof], force, moment, turning)
+            # Work of the held wrench on the joint's column, as the twist below turns that column
+            for m in range(3):
+                n, o = (m + 1) % 3, (m + 2) % 3
+                turning[m] = axes[dof, 3 + n] * wrench[k, o] - axes[dof, 3 + o] * wrench[k, n]
+                value = axes[dof, n] * wrench[k, o] - axes[dof, o] * wrench[k, n]
+                value += axes[dof, 3 + n] * wrench[k, 3 + o] - axes[dof, 3 + o] * wrench[k, 3 + n]
+                turning[3 + m] = value
             for j in range(6):
-                carry, back = 0.0, -turning[j]
+                joint[dof, j] = axes[dof, j]
+                passed, returned = 0.0, -turning[j]
                 for m in range(6):
-                    carry += matrix[j, m] * s.joint[dof, m]
-                    back += matrix[m, j] * s.joint[dof, m]
-                s.joint_then[dof, j] = s.joint[dof, j]
-                s.carry[dof, j], s.follow[dof, j] = carry, back
+                    passed += articulated[k, j, m] * axes[dof, m]
+                    returned += articulated[k, m, j] * axes[dof, m]
+                carry[dof, j], back[i, j] = passed, returned
             for m in range(count):
                 block[i, m] = 0.0
             for m in range(i):
                 for j in range(6):
-                    block[i, m] -= turning[j] * s.joint[first + m, j]
-            block[i, i] += s.stiffness[dof] + by_v * s.damping[dof]
+                    block[i, m] -= turning[j] * axes[first + m, j]
+            block[i, i] += stiffness[dof] + dv_dq * damping[dof]
         for i in range(count):
             for m in range(count):
                 for j in range(6):
-                    block[i, m] += s.joint[first + i, j] * s.carry[first + m, j]
+                    block[i, m] += axes[first + i, j] * carry[first + m, j]
                 if k == 0:
-                    block[i, m] += s.root_stiffness[i, m] + by_v * s.root_damping[i, m]
+                    block[i, m] += root_stiffness[i, m] + dv_dq * root_damping[i, m]
         invert(block, count, inverse)
         for i in range(count):
-            for j in range(6):
-                follow[i, j] = 0.0
             for m in range(count):
-                s.pivot[k, i, m] = inverse[i, m]
-                for j in range(6):
-                    follow[i, j] += inverse[i, m] * s.follow[first + m, j]
-        for i in range(count):
+                pivot[k, i, m] = inverse[i, m]
             for j in range(6):
-                s.follow[first + i, j] = follow[i, j]
+                value = 0.0
+                for m in range(count):
+                    value += inverse[i, m] * back[m, j]
+                follow[first + i, j] = value
                 for m in range(6):
-                    matrix[m, j] -= s.carry[first + i, m] * follow[i, j]
+                    articulated[k, m, j] -= carry[first + i, m] * value
         if k > 0:
             for i in range(6):
                 for j in range(6):
-                    s.articulated[k - 1, i, j] += matrix[i, j]
+                    articulated[k - 1, i, j] += articulated[k, i, j]
 
 
-@kernel
+@inner
 def invert(block: Array, count: int, inverse: Array) -> None:
     """Set the inverse of the leading part of a matrix, by cofactors where it is 3 x 3.
+
+    The block may be overwritten.
 
     Raises
     ------
     LinAlgError : the part is singular
     """
     if count != 3:
-        inverse[:count, :count] = np.linalg.inv(block[:count, :count].copy())
+        invert_by_pivots(block, count, inverse)
         return
     for i in range(3):
         j, k = (i + 1) % 3, (i + 2) % 3
@@ -178,97 +208,147 @@ def invert(block: Array, count: int, inverse: Array) -> None:
             inverse[i, j] /= determinant
 
 
-@kernel
-def axis_turn(joint: Array, force: Vector, moment: Vector, result: Array) -> None:
-    """Set (6,) work of a held wrench on a joint's column, as the twist below turns that column."""
-    for i in range(3):
-        j, k = (i + 1) % 3, (i + 2) % 3
-        result[i] = joint[3 + j] * force[k] - joint[3 + k] * force[j]
-        result[3 + i] = joint[j] * force[k] - joint[k] * force[j]
-        result[3 + i] += joint[3 + j] * moment[k] - joint[3 + k] * moment[j]
+@inner
+def invert_by_pivots(block: Array, count: int, inverse: Array) -> None:
+    """The same of any size, by Gauss-Jordan elimination with row pivots."""
+    for i in range(count):
+        for j in range(count):
+            inverse[i, j] = 1.0 if i == j else 0.0
+    for i in range(count):
+        best = i
+        for m in range(i + 1, count):
+            if abs(block[m, i]) > abs(block[best, i]):
+                best = m
+        head = block[best, i]
+        if head == 0:
+            raise np.linalg.LinAlgError("Matrix is singular to machine precision.")
+        for j in range(count):
+            block[i, j], block[best, j] = block[best, j], block[i, j]
+            inverse[i, j], inverse[best, j] = inverse[best, j], inverse[i, j]
+        for j in range(count):
+            block[i, j] /= head
+            inverse[i, j] /= head
+        for m in range(count):
+            factor = block[m, i]
+            if m != i and factor != 0:
+                for j in range(count):
+                    block[m, j] -= factor * block[i, j]
+                    inverse[m, j] -= factor * inverse[i, j]
 
 
-@kernel
-def body_matrices(s: ChainArrays, by_a: float) -> None:
+@inlined
+def body_matrices(model: Model, data: Data, factors: Factorisation, da_dq: float) -> None:
     """Set the matrices of the bodies: inertia, and the arms of their weight."""
-    last = len(s.rise)
+    articulated, body, rotation = factors.articulated, model.body, data.rotation
+    last = len(articulated) - 1
     inertia = np.empty((3, 3))
     for k in range(last + 1):
-        axis = axis_of(s.rotation, k)
+        axis = axis_of(rotation, k)
         for i in range(3):
             for j in range(3):
-                inertia[i, j] = (s.body[k, 3] - s.body[k, 2]) * axis[i] * axis[j]
-            inertia[i, i] += s.body[k, 2]
-        need, _, place = body_needs(s, k)
-        s.articulated[k] = 0.0
-        add_inertia(s.articulated[k], by_a, s.body[k, 0], place, inertia)
-        add_arm(s.articulated[k], place, (-need[0], -need[1], -need[2]))
-    need, _, place = rna_needs(s)
-    turn = s.rotation[last].copy()
-    inertia = turn @ s.rna_inertia @ turn.T
-    add_inertia(s.articulated[last], by_a, s.rna_mass, place, inertia)
-    add_arm(s.articulated[last], place, (-need[0], -need[1], -need[2]))
+                inertia[i, j] = (body[k, 3] - body[k, 2]) * axis[i] * axis[j]
+            inertia[i, i] += body[k, 2]
+        for i in range(6):
+            for j in range(6):
+                articulated[k, i, j] = 0.0
+        need, _, center = inertial_wrench(
+            model, data, k, body[k, 0], body[k, 1], body[k, 2], body[k, 3]
+        )
+        add_inertia(articulated, k, da_dq, body[k, 0], center, inertia)
+        add_arm(articulated, k, center, scale(-1.0, need))
+    for i in range(3):
+        for j in range(3):
+            value = 0.0
+            for m in range(3):
+                for n in range(3):
+                    turned = rotation[last, i, m] * rotation[last, j, n]
+                    value += turned * model.rna_inertia[m, n]
+            inertia[i, j] = value
+    need, _, center = rna_wrench(model, data)
+    add_inertia(articulated, last, da_dq, model.rna_mass, center, inertia)
+    add_arm(articulated, last, center, scale(-1.0, need))
 
 
-@kernel
-def load_matrices(s: ChainArrays, row: Array, by_v: float, by_a: float) -> None:
+@inlined
+def load_matrices(
+    model: Model,
+    data: Data,
+    state: State,
+    factors: Factorisation,
+    time_inputs: Array,
+    dv_dq: float,
+    da_dq: float,
+) -> None:
     """Take off the loads' derivatives, and add the arms of their forces."""
-    s.blocks[:] = 0.0
-    for i in range(s.loads):
-        points = slice(s.first_point[i], s.first_point[i + 1])
-        numbers = row[s.first_number[i] : s.first_number[i + 1]]
-        past = s.memory[s.first_memory[i] : s.first_memory[i + 1]]
-        s.tangents[i](s.motion[points], s.constants[i], numbers, past, s.blocks[points])
+    blocks, motion, articulated = factors.blocks, data.motion, factors.articulated
     by_twist = np.empty((3, 6))
-    for i in range(len(s.point_body)):
-        k = s.point_body[i]
-        place = row_of(s.motion, i)
-        axis = (s.motion[i, 9], s.motion[i, 10], s.motion[i, 11])
+    for load in range(len(model.forces)):
+        first, last = model.first_point[load], model.first_point[load + 1]
+        own = part(blocks, first, last)
+        own.fill(0.0)
+        if model.tangents[load] != 0:
+            _tangents(
+                model.tangents[load],
+                (
+                    part(motion, first, last),
+                    constants_of(model, load),
+                    part(time_inputs, model.first_input[load], model.first_input[load + 1]),
+                    part(state.memory, model.first_memory[load], model.first_memory[load + 1]),
+                    own,
+                ),
+            )
+    for i in range(len(blocks)):
+        k = model.point_body[i]
+        position = row_of(motion, i)
+        axis = (motion[i, 9], motion[i, 10], motion[i, 11])
         for j in range(3):
             for m in range(3):
                 by_twist[j, m] = (
-                    s.blocks[i, 0, j, m] + by_v * s.blocks[i, 1, j, m] + by_a * s.blocks[i, 2, j, m]
+                    blocks[i, 0, j, m] + dv_dq * blocks[i, 1, j, m] + da_dq * blocks[i, 2, j, m]
                 )
             for m in range(3):
                 n, o = (m + 1) % 3, (m + 2) % 3
                 # a rotation about m moves the point by e_m x p, and turns the axis by e_m x e
-                by_twist[j, 3 + m] = by_twist[j, o] * place[n] - by_twist[j, n] * place[o]
-                by_twist[j, 3 + m] += (
-                    s.blocks[i, 3, j, o] * axis[n] - s.blocks[i, 3, j, n] * axis[o]
-                )
-        matrix = s.articulated[k]
+                value = by_twist[j, o] * position[n] - by_twist[j, n] * position[o]
+                value += blocks[i, 3, j, o] * axis[n] - blocks[i, 3, j, n] * axis[o]
+                by_twist[j, 3 + m] = value
         for m in range(6):
             for j in range(3):
                 n, o = (j + 1) % 3, (j + 2) % 3
-                matrix[j, m] -= by_twist[j, m]
-                matrix[3 + j, m] -= place[n] * by_twist[o, m] - place[o] * by_twist[n, m]
-        add_arm(matrix, place, row_of(s.force, i))
-        if has_entries(s.blocks[i, 4:]):
-            add_moment(matrix, s.blocks[i, 4:], place, s.rotation[k], by_v)
+                articulated[k, j, m] -= by_twist[j, m]
+                moment = position[n] * by_twist[o, m] - position[o] * by_twist[n, m]
+                articulated[k, 3 + j, m] -= moment
+        add_arm(articulated, k, position, row_of(data.force, i))
+        size = 0.0
+        for n in range(4, 7):
+            for j in range(3):
+                for m in range(3):
+                    size += abs(blocks[i, n, j, m])
+        if size > 0:
+            add_moment(articulated, k, blocks, i, position, data.rotation, dv_dq)
 
 
-@kernel
-def has_entries(blocks: Array) -> bool:
-    """Whether any derivative of a point's moment is not zero."""
-    size = 0.0
-    for entry in blocks.flat:
-        size += abs(entry)
-    return size > 0
-
-
-@kernel
-def add_moment(matrix: Array, blocks: Array, place: Vector, turn: Array, by_v: float) -> None:
-    """Take off the derivatives (3, 3, 3) of a point's moment by its place, turn and spin.
+@inner
+def add_moment(
+    matrices: Array,
+    k: int,
+    blocks: Array,
+    i: int,
+    position: tuple[float, float, float],
+    rotation: Array,
+    dv_dq: float,
+) -> None:
+    """Take off matrix k the derivatives of point i's moment by position, rotation and its rate.
 
     A rotation phi turns an orientation R by [phi] R, and its axial vector by (tr(R) - R) phi / 2.
     """
-    trace = turn[0, 0] + turn[1, 1] + turn[2, 2]
+    trace = rotation[k, 0, 0] + rotation[k, 1, 1] + rotation[k, 2, 2]
     for j in range(3):
         for m in range(3):
             n, o = (m + 1) % 3, (m + 2) % 3
-            by_rotation = blocks[0, j, o] * place[n] - blocks[0, j, n] * place[o]
-            by_rotation += blocks[1, j, m] * trace / 2 + by_v * blocks[2, j, m]
+            by_rotation = blocks[i, 4, j, o] * position[n] - blocks[i, 4, j, n] * position[o]
+            by_rotation += blocks[i, 5, j, m] * trace / 2 + dv_dq * blocks[i, 6, j, m]
             for r in range(3):
-                by_rotation -= blocks[1, j, r] * turn[r, m] / 2
-            matrix[3 + j, m] -= blocks[0, j, m]
-            matrix[3 + j, 3 + m] -= by_rotation
+                by_rotation -= blocks[i, 5, j, r] * rotation[k, r, m] / 2
+            matrices[k, 3 + j, m] -= blocks[i, 4, j, m]
+            matrices[k, 3 + j, 3 + m] -= by_rotation

@@ -1,250 +1,303 @@
-"""Section loads, motions and energies of the state last evaluated, in compiled code."""
+"""Section loads, motions and energies of an evaluated state, in compiled code."""
 
 from __future__ import annotations
 
+from typing import Any
+
+from numba import types
+
 from offwind_pin.base.definition import Array
-from offwind_pin.base.kernels import kernel
-from offwind_pin.dynamics.compiled.base_motion import power_of_ground
-from offwind_pin.dynamics.compiled.chain_arrays import ChainArrays
-from offwind_pin.dynamics.compiled.forward_kinematics import (
-    Vector,
-    add,
-    axis_of,
-    carried,
-    cross,
-    dot,
-    row_of,
-    scale,
-    subtract,
-)
-from offwind_pin.dynamics.compiled.recorder_arrays import (
+from offwind_pin.base.kernels import exchangeable, inlined, inner
+from offwind_pin.base.records import part
+from offwind_pin.dynamics.compiled.model import NO_JOINT, Data, Model, State, Vector
+from offwind_pin.dynamics.compiled.recorder import (
     GROUND,
     JOINT_DAMPERS,
     ROOT,
     Cuts,
-    RecorderArrays,
-    SoilNodes,
+    Recorder,
 )
 from offwind_pin.dynamics.compiled.residual import (
-    commit,
+    DATA,
+    MODEL,
+    ROW,
+    STATE,
+    constants_of,
+    inertial_wrench,
+    rna_arm,
     rna_inertia_times,
-    rna_needs,
-    round_body_needs,
-    to_world,
+    rna_wrench,
+    step_kernel,
 )
-from offwind_pin.dynamics.compiled.tuned_mass import slider_energies, sliders_between, slips
+from offwind_pin.dynamics.compiled.vectors import (
+    add,
+    axis_of,
+    cross,
+    dot,
+    rigid_point_motion,
+    row_of,
+    scale,
+    store,
+    subtract,
+)
+from offwind_pin.loads.point_load import energy_kernel
+
+CUTS, RECORDER = Cuts.numba_type(), Recorder.numba_type()
+_VECTOR: Any = types.UniTuple(types.float64, 3)  # type: ignore[no-untyped-call]
+_VECTORS: Any = types.UniTuple(_VECTOR, 2)  # type: ignore[no-untyped-call]
+_NUMBERS: Any = types.UniTuple(types.float64, 2)  # type: ignore[no-untyped-call]
+_MATRIX: Any = types.float64[:, ::1]
+
+cuts_kernel = exchangeable(types.void(MODEL, DATA, CUTS, _MATRIX, _MATRIX, _MATRIX), nogil=True)
+note_kernel = exchangeable(
+    types.void(MODEL, DATA, STATE, RECORDER, ROW, types.intp, types.float64), nogil=True
+)
+tmd_between_kernel = exchangeable(_VECTORS(MODEL, DATA, types.float64, types.float64))
+"""Decorator for ``kernel(model, data, low, high)``: what dampers between two heights need."""
+tmd_energies_kernel = exchangeable(_NUMBERS(MODEL, DATA))
+"""Decorator for ``kernel(model, data)``: their kinetic and gravitational energies."""
+
+_energy, _commit, _at_cuts = energy_kernel.call, step_kernel.call, cuts_kernel.call
+_tmd_between, _tmd_energies = tmd_between_kernel.call, tmd_energies_kernel.call
 
 
-@kernel
+@note_kernel
 def take_note(
-    s: ChainArrays,
-    r: RecorderArrays,
-    row: Array,
-    q: Array,
-    v: Array,
+    model: Model,
+    data: Data,
+    state: State,
+    recorder: Recorder,
+    time_inputs: Array,
     iterations: int,
     size: float,
 ) -> None:
-    """End a step: keep its past, sum energies up to it, and write a record where one is due."""
-    if len(s.memory) > 0:
-        commit(s, row, q)
-    time = row[0]
-    add_energies(s, r, row, v, time - r.clock[0])
-    r.clock[0] = time
-    r.tally[0] += 1
-    if r.tally[0] % r.every == 0:
-        record(s, r, time, q, iterations, size)
+    """End a step: keep its past, sum energies up to it, and write a record where one is due.
+
+    data : of the state, as :func:`evaluate` set it
+    """
+    if recorder.commit != 0:
+        _commit(recorder.commit, (model, data, state, time_inputs))
+    time = time_inputs[0]
+    add_energies(model, data, state, recorder, time - recorder.clock[0])
+    recorder.clock[0] = time
+    recorder.tally[0] += 1
+    if recorder.tally[0] % recorder.every == 0:
+        record(model, data, state, recorder, iterations, size)
 
 
-@kernel
+@inlined
 def record(
-    s: ChainArrays,
-    r: RecorderArrays,
-    time: float,
-    q: Array,
-    iterations: int,
-    size: float,
+    model: Model, data: Data, state: State, recorder: Recorder, iterations: int, size: float
 ) -> None:
-    """Write a record of the state last evaluated."""
-    i = r.tally[1]
-    r.time[i], r.iterations[i], r.residual[i] = time, iterations, size
-    for m in range(len(r.cuts.height)):
-        k = r.cuts.body[m]
-        arm = scale(r.cuts.offset[m], axis_of(s.rotation, k))
-        place = add(row_of(s.origin, k), arm)
-        _, acceleration = carried(
-            arm,
-            row_of(s.velocity, k),
-            row_of(s.spin, k),
-            row_of(s.acceleration, k),
-            row_of(s.spin_rate, k),
-        )
+    """Write a record of an evaluated state."""
+    i, soil, tmd_joint = recorder.tally[1], recorder.soil, model.tmd.joint
+    recorder.time[i], recorder.iterations[i] = recorder.clock[0], iterations
+    recorder.residual[i] = size
+    _at_cuts(
+        recorder.at_cuts,
+        (
+            model,
+            data,
+            recorder.cuts,
+            recorder.displacement[i],
+            recorder.acceleration[i],
+            recorder.section_load[i],
+        ),
+    )
+    imbalances(model, data, recorder, i)
+    store_energies(model, data, state, recorder, i)
+    for n in range(len(soil.point)):
         for j in range(3):
-            r.displacement[i, m, j] = place[j]
-            r.acceleration[i, m, j] = acceleration[j]
-        r.displacement[i, m, 2] -= r.cuts.height[m]
-    section_loads(s, r.cuts, r.section_load[i])
-    imbalances(s, r, r.section_load[i], r.imbalance[i])
-    store_energies(s, q, r.stored[i])
-    sum_soil(s, r.soil, r.soil_force[i])
-    slips(s, q, r.slip[i])
-    r.dissipated[i] = r.energy[0]
-    r.worked[i] = r.energy[1]
-    r.tally[1] += 1
+            recorder.soil_force[i, soil.node[n], j] += data.force[soil.point[n], j]
+    for d in range(len(tmd_joint)):
+        for j in range(2):
+            dof = tmd_joint[d, j]
+            if dof != NO_JOINT:
+                recorder.stroke[i, d, j] = state.q[dof]
+    for j in range(recorder.energy.shape[1]):
+        recorder.dissipated[i, j] = recorder.energy[0, j]
+        recorder.worked[i, j] = recorder.energy[1, j]
+    recorder.tally[1] += 1
 
 
-@kernel
-def sum_soil(s: ChainArrays, soil: SoilNodes, result: Array) -> None:
-    """Add to (n, 3) the forces of the soil's springs and dashpots on the pile at each node."""
-    for i in range(len(soil.point)):
-        for j in range(3):
-            result[soil.node[i], j] += s.force[soil.point[i], j]
+@cuts_kernel
+def at_cuts(
+    model: Model,
+    data: Data,
+    cuts: Cuts,
+    displacement: Array,
+    acceleration: Array,
+    section_load: Array,
+) -> None:
+    """Set displacement and acceleration (m, 3) of cuts, and (m, 6) their section loads.
 
-
-@kernel
-def section_loads(s: ChainArrays, cuts: Cuts, result: Array) -> None:
-    """Set (m, 6) force and moment about each cut that the part above exerts on the part below."""
-    last = len(s.rise)
+    These are force and moment about each cut that the part above exerts on the part below.
+    """
+    last, wrench = len(model.length), data.wrench
     for m in range(len(cuts.height)):
         k = cuts.body[m]
-        if k < last:
-            force = (s.wrench[k + 1, 0], s.wrench[k + 1, 1], s.wrench[k + 1, 2])
-            moment = (s.wrench[k + 1, 3], s.wrench[k + 1, 4], s.wrench[k + 1, 5])
-        else:
-            need, turn, place = rna_needs(s)
-            force = scale(-1.0, need)
-            moment = scale(-1.0, add(cross(place, need), turn))
-        need, turn, place = round_body_needs(
-            s, k, cuts.piece[m, 0], cuts.piece[m, 1], cuts.piece[m, 2], cuts.piece[m, 3]
+        arm = scale(cuts.offset[m], axis_of(data.rotation, k))
+        position = add(row_of(data.position, k), arm)
+        _, accelerated = rigid_point_motion(
+            arm,
+            row_of(data.velocity, k),
+            row_of(data.angular_velocity, k),
+            row_of(data.acceleration, k),
+            row_of(data.angular_acceleration, k),
         )
+        store(displacement, m, position)
+        store(acceleration, m, accelerated)
+        displacement[m, 2] -= cuts.height[m]
+        if k < last:
+            force = row_of(wrench, k + 1)
+            moment = (wrench[k + 1, 3], wrench[k + 1, 4], wrench[k + 1, 5])
+        else:
+            need, turn, center = rna_wrench(model, data)
+            force = scale(-1.0, need)
+            moment = scale(-1.0, add(cross(center, need), turn))
+        need, turn, center = piece_wrench(model, data, k, cuts.piece, m)
         force = subtract(force, need)
-        moment = subtract(moment, add(cross(place, need), turn))
+        moment = subtract(moment, add(cross(center, need), turn))
         for n in range(cuts.first[m], cuts.first[m + 1]):
-            i = cuts.point[n]
-            pull = row_of(s.force, i)
+            pull, turn = point_wrench(data, cuts.point[n])
             force = add(force, pull)
-            own = (s.force[i, 3], s.force[i, 4], s.force[i, 5])
-            moment = add(moment, add(cross(row_of(s.motion, i), pull), own))
-        if len(s.slider_body) > 0:
-            need, turn = sliders_between(s, cuts.height[m], cuts.end[m])
+            moment = add(moment, add(cross(row_of(data.motion, cuts.point[n]), pull), turn))
+        if model.tmd.between != 0:
+            need, turn = _tmd_between(model.tmd.between, (model, data, cuts.height[m], cuts.end[m]))
             force, moment = subtract(force, need), subtract(moment, turn)
-        moment = subtract(moment, cross(cut_place(s, cuts, m), force))
+        moment = subtract(moment, cross(position, force))
         for j in range(3):
-            result[m, j], result[m, 3 + j] = force[j], moment[j]
+            section_load[m, j], section_load[m, 3 + j] = force[j], moment[j]
 
 
-@kernel
-def imbalances(s: ChainArrays, r: RecorderArrays, section_load: Array, result: Array) -> None:
+@inner
+def piece_wrench(
+    model: Model, data: Data, k: int, pieces: Array, i: int
+) -> tuple[Vector, Vector, Vector]:
+    """What a piece of body k needs, see :func:`inertial_wrench`."""
+    return inertial_wrench(model, data, k, pieces[i, 0], pieces[i, 1], pieces[i, 2], pieces[i, 3])
+
+
+@inner
+def point_wrench(data: Data, i: int) -> tuple[Vector, Vector]:
+    """Force and moment at a loaded point."""
+    return row_of(data.force, i), (data.force[i, 3], data.force[i, 4], data.force[i, 5])
+
+
+@inlined
+def imbalances(model: Model, data: Data, recorder: Recorder, i: int) -> None:
     """Set (g, 6) what section loads, applied loads and inertia of each segment leave over.
 
     Section loads are summed from the top down; here each segment is summed by itself. Moments are
     about its lower cut.
     """
-    g = r.segments
-    for n in range(len(g.cut)):
-        low, high = g.cut[n, 0], g.cut[n, 1]
-        about, above = cut_place(s, r.cuts, low), cut_place(s, r.cuts, high)
-        upper = row_of(section_load, high)
-        force = subtract(row_of(section_load, low), upper)
+    segments, cuts, result = recorder.segments, recorder.cuts, recorder.imbalance
+    load, moved = recorder.section_load[i], recorder.displacement[i]
+    for n in range(len(segments.cut)):
+        low, high = segments.cut[n, 0], segments.cut[n, 1]
+        about = add(row_of(moved, low), (0.0, 0.0, cuts.height[low]))
+        above = add(row_of(moved, high), (0.0, 0.0, cuts.height[high]))
+        upper = row_of(load, high)
+        force = subtract(row_of(load, low), upper)
         moment = scale(-1.0, cross(subtract(above, about), upper))
-        for j in range(g.first_piece[n], g.first_piece[n + 1]):
-            need, turn, place = round_body_needs(
-                s, g.body[j], g.piece[j, 0], g.piece[j, 1], g.piece[j, 2], g.piece[j, 3]
-            )
+        for j in range(segments.first_piece[n], segments.first_piece[n + 1]):
+            need, turn, center = piece_wrench(model, data, segments.body[j], segments.piece, j)
             force = add(force, need)
-            moment = add(moment, add(cross(subtract(place, about), need), turn))
-        for j in range(g.first_point[n], g.first_point[n + 1]):
-            i = g.point[j]
-            pull = row_of(s.force, i)
-            own = (s.force[i, 3], s.force[i, 4], s.force[i, 5])
+            moment = add(moment, add(cross(subtract(center, about), need), turn))
+        for j in range(segments.first_point[n], segments.first_point[n + 1]):
+            pull, turn = point_wrench(data, segments.point[j])
+            arm = subtract(row_of(data.motion, segments.point[j]), about)
             force = subtract(force, pull)
-            turn = add(cross(subtract(row_of(s.motion, i), about), pull), own)
-            moment = subtract(moment, turn)
-        if len(s.slider_body) > 0:
-            need, turn = sliders_between(s, r.cuts.height[low], r.cuts.height[high])
+            moment = subtract(moment, add(cross(arm, pull), turn))
+        if model.tmd.between != 0:
+            ends = (model, data, cuts.height[low], cuts.height[high])
+            need, turn = _tmd_between(model.tmd.between, ends)
             force = add(force, need)
             moment = add(moment, subtract(turn, cross(about, need)))
         for j in range(3):
-            result[n, j] = force[j]
-            result[n, 3 + j] = moment[j] + section_load[low, 3 + j] - section_load[high, 3 + j]
+            result[i, n, j] = force[j]
+            result[i, n, 3 + j] = moment[j] + load[low, 3 + j] - load[high, 3 + j]
 
 
-@kernel
-def cut_place(s: ChainArrays, cuts: Cuts, m: int) -> Vector:
-    """Place of a cut in m."""
-    k = cuts.body[m]
-    return add(row_of(s.origin, k), scale(cuts.offset[m], axis_of(s.rotation, k)))
-
-
-@kernel
-def store_energies(s: ChainArrays, q: Array, result: Array) -> None:
+@inlined
+def store_energies(model: Model, data: Data, state: State, recorder: Recorder, i: int) -> None:
     """Set kinetic, gravitational (zero undeformed), elastic, the root's and the loads' energy."""
-    last = len(s.rise)
+    body, length, position, result = model.body, model.length, data.position, recorder.stored
+    last = len(length)
     kinetic = gravitational = elastic = 0.0
-    height = s.base
+    height = model.base
     for k in range(last + 1):
         if k > 0:
-            height += s.rise[k - 1]
-        axis, spin = axis_of(s.rotation, k), row_of(s.spin, k)
-        arm = scale(s.body[k, 1], axis)
-        velocity = add(row_of(s.velocity, k), cross(spin, arm))
+            height += length[k - 1]
+        axis, spin = axis_of(data.rotation, k), row_of(data.angular_velocity, k)
+        arm = scale(body[k, 1], axis)
+        velocity = add(row_of(data.velocity, k), cross(spin, arm))
         along = dot(axis, spin)
-        kinetic += s.body[k, 0] * dot(velocity, velocity) / 2
-        kinetic += s.body[k, 2] * dot(spin, spin) / 2
-        kinetic += (s.body[k, 3] - s.body[k, 2]) * along**2 / 2
-        rise = s.origin[k, 2] + arm[2] - (height + s.body[k, 1])
-        gravitational += s.body[k, 0] * s.gravity * rise
-    center = (s.rna_center[0], s.rna_center[1], s.rna_center[2] + s.top_rise)
-    arm, spin = to_world(s.rotation[last], center), row_of(s.spin, last)
-    velocity = add(row_of(s.velocity, last), cross(spin, arm))
-    kinetic += s.rna_mass * dot(velocity, velocity) / 2
-    kinetic += dot(spin, rna_inertia_times(s, spin)) / 2
-    gravitational += s.rna_mass * s.gravity * (s.origin[last, 2] + arm[2] - height - center[2])
-    if len(s.slider_body) > 0:
-        of_motion, of_height = slider_energies(s)
-        kinetic += of_motion
-        gravitational += of_height
-    for i in range(len(q)):
-        elastic += s.stiffness[i] * q[i] ** 2 / 2
-    result[0], result[1], result[2], result[3] = kinetic, gravitational, elastic, s.root_power[1]
-    for i in range(s.loads):
-        points = slice(s.first_point[i], s.first_point[i + 1])
-        past = s.memory[s.first_memory[i] : s.first_memory[i + 1]]
-        result[4 + i] = s.energies[i](s.motion[points], s.constants[i], past)
+        kinetic += body[k, 0] * dot(velocity, velocity) / 2
+        kinetic += body[k, 2] * dot(spin, spin) / 2
+        kinetic += (body[k, 3] - body[k, 2]) * along * along / 2
+        lifted = position[k, 2] + arm[2] - (height + body[k, 1])
+        gravitational += body[k, 0] * model.gravity * lifted
+    arm, spin = rna_arm(model, data), row_of(data.angular_velocity, last)
+    velocity = add(row_of(data.velocity, last), cross(spin, arm))
+    kinetic += model.rna_mass * dot(velocity, velocity) / 2
+    kinetic += dot(spin, rna_inertia_times(model, data, spin)) / 2
+    undeformed = height + model.rna_center[2] + model.top_length
+    gravitational += model.rna_mass * model.gravity * (position[last, 2] + arm[2] - undeformed)
+    if model.tmd.energies != 0:
+        moving, lifted = _tmd_energies(model.tmd.energies, (model, data))
+        kinetic += moving
+        gravitational += lifted
+    for n in range(len(state.q)):
+        elastic += model.stiffness[n] * state.q[n] * state.q[n] / 2
+    result[i, 0], result[i, 1], result[i, 2] = kinetic, gravitational, elastic
+    result[i, 3] = data.root_power[1]
+    for n in range(len(recorder.energies)):
+        if recorder.energies[n] != 0:
+            result[i, 4 + n] = _energy(
+                recorder.energies[n],
+                (
+                    part(data.motion, model.first_point[n], model.first_point[n + 1]),
+                    constants_of(model, n),
+                    part(state.memory, model.first_memory[n], model.first_memory[n + 1]),
+                ),
+            )
 
 
-@kernel
-def add_energies(s: ChainArrays, r: RecorderArrays, row: Array, v: Array, step: float) -> None:
+@inlined
+def add_energies(model: Model, data: Data, state: State, recorder: Recorder, step: float) -> None:
     """Integrate the powers dissipated and worked over a step, by the trapezoidal rule.
 
     What was dissipated by the end of the step as such is added.
     """
+    v, force, motion, now = state.v, data.force, data.motion, recorder.now
+    energy, power, heat = recorder.energy, recorder.power, data.dissipated_energy
+    loads = len(model.forces)
     dampers = 0.0
     for i in range(len(v)):
-        dampers += s.damping[i] * v[i] ** 2
-    add_power(r.energy[0], r.power[0], JOINT_DAMPERS, dampers, step)
-    add_power(r.energy[0], r.power[0], ROOT, s.root_power[0], step)
-    r.energy[0, ROOT] += s.heat[s.loads]
-    add_power(r.energy[1], r.power[1], GROUND, power_of_ground(s, row), step)
-    for i in range(s.loads):
-        add_power(r.energy[0], r.power[0], 2 + i, s.lost[i], step)
-        r.energy[0, 2 + i] += s.heat[i]
-        if not r.stores[i]:
-            add_power(r.energy[1], r.power[1], 2 + i, power_of(s, i) + s.lost[i], step)
-
-
-@kernel
-def add_power(energy: Array, before: Array, column: int, power: float, step: float) -> None:
-    energy[column] += step * (before[column] + power) / 2
-    before[column] = power
-
-
-@kernel
-def power_of(s: ChainArrays, load: int) -> float:
-    """Power in W of a load on the structure; of one that the ground carries, relative to it."""
-    power = 0.0
-    for i in range(s.first_point[load], s.first_point[load + 1]):
-        spin = row_of(s.spin, s.point_body[i])
+        dampers += model.damping[i] * v[i] * v[i]
+    now[0, JOINT_DAMPERS], now[0, ROOT] = dampers, data.root_power[0]
+    if model.move_ground != 0:
+        # at the base what the wrench on everything asks for, at points of the soil its force
+        ground, base = data.ground, len(data.ground) - 1
+        given = 0.0
         for j in range(3):
-            power += s.force[i, j] * s.motion[i, 6 + j] + s.force[i, 3 + j] * spin[j]
-    return power
+            given -= data.wrench[0, j] * ground[base, 3 + j]
+            for i in range(base):
+                given += force[i, j] * ground[i, 3 + j]
+        now[1, GROUND] = given
+    for n in range(loads):
+        now[0, 2 + n] = data.dissipated_power[n]
+        if recorder.energies[n] == 0:
+            # of a load that the ground carries, relative to it
+            work = 0.0
+            for i in range(model.first_point[n], model.first_point[n + 1]):
+                for j in range(3):
+                    work += force[i, j] * motion[i, 6 + j] + force[i, 3 + j] * motion[i, 18 + j]
+            now[1, 2 + n] = work + now[0, 2 + n]
+    for j in range(loads + 2):
+        for i in range(2):
+            energy[i, j] += step * (power[i, j] + now[i, j]) / 2
+            power[i, j] = now[i, j]
+        if j > 0:
+            energy[0, j] += heat[loads if j == ROOT else j - 2]

@@ -1,180 +1,243 @@
-"""The equations of motion in compiled code: what the joints lack for equilibrium, in O(N)."""
+"""The equations of motion in compiled code: the residual of every joint, in O(N)."""
 
 from __future__ import annotations
 
+from typing import Any
+
+from numba import types
+
 from offwind_pin.base.definition import Array
-from offwind_pin.base.kernels import kernel
-from offwind_pin.dynamics.compiled.chain_arrays import ChainArrays
-from offwind_pin.dynamics.compiled.forward_kinematics import (
-    Vector,
+from offwind_pin.base.kernels import exchangeable, inlined, inner
+from offwind_pin.base.records import matrix, part
+from offwind_pin.dynamics.compiled.forward_kinematics import move_bodies, move_points
+from offwind_pin.dynamics.compiled.model import Data, Model, State, Vector
+from offwind_pin.dynamics.compiled.vectors import (
     add,
     axis_of,
-    carried,
     cross,
     dot,
-    move,
-    move_points,
+    rigid_point_motion,
     row_of,
     scale,
+    to_world,
 )
-from offwind_pin.dynamics.compiled.tuned_mass import balance_sliders, load_carriers, move_sliders
+from offwind_pin.loads.point_load import commit_kernel, force_kernel
+from offwind_pin.loads.root_restraint import restraint_commit, restraint_kernel
+
+MODEL, DATA, STATE = Model.numba_type(), Data.numba_type(), State.numba_type()
+ROW: Any = types.float64[::1]
+
+ground_kernel = exchangeable(types.void(MODEL, DATA, ROW))
+"""Decorator for ``kernel(model, data, time_inputs)`` that moves the ground."""
+tmd_residual_kernel = exchangeable(types.void(MODEL, DATA, STATE))
+"""Decorator for ``kernel(model, data, state)`` that moves the tuned mass dampers."""
+evaluate_kernel = exchangeable(types.void(MODEL, DATA, STATE, ROW), nogil=True)
+step_kernel = exchangeable(types.void(MODEL, DATA, STATE, ROW), nogil=True)
+
+_force, _commit = force_kernel.call, commit_kernel.call
+_reaction, _root_commit = restraint_kernel.call, restraint_commit.call
+_ground, _tmd = ground_kernel.call, tmd_residual_kernel.call
 
 
-@kernel
-def balance(s: ChainArrays, row: Array, q: Array, v: Array, a: Array) -> Array:
-    """(nv,) r = rnea(q, v, a) + K q + D v + R(q, v) - Q: generalised forces out of balance.
+@evaluate_kernel
+def evaluate(model: Model, data: Data, state: State, time_inputs: Array) -> None:
+    """Set the data of a state, the residual r = rnea(q, v, a) + K q + D v + R(q, v) - Q last.
 
-    row : numbers of the loads that depend on time alone
+    time_inputs : numbers of ground and loads that depend on time alone
     """
-    move(s, row, q, v, a)
-    if len(s.slider_body) > 0:
-        move_sliders(s, q, v, a)
-    move_points(s, row)
-    evaluate_loads(s, row)
-    collect_wrenches(s)
+    if model.move_ground != 0:
+        _ground(model.move_ground, (model, data, time_inputs))
+    move_bodies(model, data, state)
+    move_points(model, data)
+    evaluate_loads(model, data, state, time_inputs)
+    collect_wrenches(model, data, state)
+    q, v, stiffness, damping = state.q, state.v, model.stiffness, model.damping
+    joint, wrench, residual = data.joint, data.wrench, data.residual
     dof = 0
-    for k in range(len(s.rise) + 1):
-        count = s.roots if k == 0 else s.node_joints
+    for k in range(len(wrench)):
+        count = model.node_joints if k > 0 else model.roots
         for _ in range(count):
             work = 0.0
             for j in range(6):
-                work += s.joint[dof, j] * s.wrench[k, j]
-            s.residual[dof] = s.stiffness[dof] * q[dof] + s.damping[dof] * v[dof] - work
+                work += joint[dof, j] * wrench[k, j]
+            residual[dof] = stiffness[dof] * q[dof] + damping[dof] * v[dof] - work
             dof += 1
-    if len(s.slider_body) > 0:
-        balance_sliders(s, q, v)
-    if s.roots > 0:
-        add_root(s, q, v)
-    return s.residual
+    if model.roots > 0:
+        loads = len(model.forces)
+        past = part(state.memory, model.first_memory[loads], model.first_memory[loads + 1])
+        data.root_power[0], data.root_power[1] = _reaction(
+            model.restraint,
+            (
+                part(q, 0, 6),
+                part(v, 0, 6),
+                model.restraint_constants,
+                past,
+                data.root_reaction,
+                data.root_stiffness,
+                data.root_damping,
+            ),
+        )
+        for i in range(6):
+            residual[i] += data.root_reaction[i]
 
 
-@kernel
-def evaluate_loads(s: ChainArrays, row: Array) -> None:
+@inlined
+def evaluate_loads(model: Model, data: Data, state: State, time_inputs: Array) -> None:
     """Set the forces of all loads at their points."""
-    for i in range(s.loads):
-        points = slice(s.first_point[i], s.first_point[i + 1])
-        numbers = row[s.first_number[i] : s.first_number[i + 1]]
-        past = s.memory[s.first_memory[i] : s.first_memory[i + 1]]
-        s.lost[i] = s.forces[i](s.motion[points], s.constants[i], numbers, past, s.force[points])
+    for i in range(len(model.forces)):
+        first, last = model.first_point[i], model.first_point[i + 1]
+        data.dissipated_power[i] = _force(
+            model.forces[i],
+            (
+                part(data.motion, first, last),
+                constants_of(model, i),
+                part(time_inputs, model.first_input[i], model.first_input[i + 1]),
+                part(state.memory, model.first_memory[i], model.first_memory[i + 1]),
+                part(data.force, first, last),
+            ),
+        )
 
 
-@kernel
-def commit(s: ChainArrays, row: Array, q: Array) -> None:
-    """End a step: what loads and root keep of their past becomes that of the state evaluated."""
-    for i in range(s.loads):
-        points = slice(s.first_point[i], s.first_point[i + 1])
-        past = s.memory[s.first_memory[i] : s.first_memory[i + 1]]
-        numbers = row[s.first_number[i] : s.first_number[i + 1]]
-        s.heat[i] = s.commits[i](s.motion[points], s.constants[i], numbers, past)
-    if s.roots > 0:
-        past = s.memory[s.first_memory[s.loads] :]
-        s.heat[s.loads] = s.restraint_commit[0](q[:6], s.restraint_numbers, past)
+@inner
+def constants_of(model: Model, load: int) -> Array:
+    """(n, c) constants of a load at its n points."""
+    first, points = model.first_constant[load], model.first_point
+    rows = points[load + 1] - points[load]
+    columns = (model.first_constant[load + 1] - first) // max(rows, 1)
+    return matrix(model.constants, first, rows, columns)
 
 
-@kernel
-def collect_wrenches(s: ChainArrays) -> None:
+@step_kernel
+def commit(model: Model, data: Data, state: State, time_inputs: Array) -> None:
+    """End a step: the memory of loads and root becomes that of the state in the data."""
+    memory, first_memory, loads = state.memory, model.first_memory, len(model.forces)
+    for i in range(loads):
+        if model.commits[i] != 0:
+            data.dissipated_energy[i] = _commit(
+                model.commits[i],
+                (
+                    part(data.motion, model.first_point[i], model.first_point[i + 1]),
+                    constants_of(model, i),
+                    part(time_inputs, model.first_input[i], model.first_input[i + 1]),
+                    part(memory, first_memory[i], first_memory[i + 1]),
+                ),
+            )
+    if model.restraint_commit != 0:
+        past = part(memory, first_memory[loads], first_memory[loads + 1])
+        data.dissipated_energy[loads] = _root_commit(
+            model.restraint_commit, (part(state.q, 0, 6), model.restraint_constants, past)
+        )
+
+
+@inlined
+def collect_wrenches(model: Model, data: Data, state: State) -> None:
     """Set the wrench on each body and all above: loads less inertia and weight."""
-    last = len(s.rise)
+    wrench, force, body, point_body = data.wrench, data.force, model.body, model.point_body
+    last = len(wrench) - 1
     for k in range(last + 1):
-        need, turn, place = body_needs(s, k)
-        moment = add(cross(place, need), turn)
+        need, moment, center = inertial_wrench(
+            model, data, k, body[k, 0], body[k, 1], body[k, 2], body[k, 3]
+        )
+        moment = add(cross(center, need), moment)
         for j in range(3):
-            s.wrench[k, j], s.wrench[k, 3 + j] = -need[j], -moment[j]
-    need, turn, place = rna_needs(s)
-    moment = add(cross(place, need), turn)
+            wrench[k, j], wrench[k, 3 + j] = -need[j], -moment[j]
+    need, moment, center = rna_wrench(model, data)
+    moment = add(cross(center, need), moment)
     for j in range(3):
-        s.wrench[last, j] -= need[j]
-        s.wrench[last, 3 + j] -= moment[j]
-    for i in range(len(s.point_body)):
-        k = s.point_body[i]
-        force = row_of(s.force, i)
-        lever = cross(row_of(s.motion, i), force)
+        wrench[last, j] -= need[j]
+        wrench[last, 3 + j] -= moment[j]
+    for i in range(len(point_body)):
+        k = point_body[i]
+        lever = cross(row_of(data.motion, i), row_of(force, i))
         for j in range(3):
-            s.wrench[k, j] += force[j]
-            s.wrench[k, 3 + j] += lever[j] + s.force[i, 3 + j]
-    if len(s.slider_body) > 0:
-        load_carriers(s)
+            wrench[k, j] += force[i, j]
+            wrench[k, 3 + j] += lever[j] + force[i, 3 + j]
+    if model.tmd.residual != 0:
+        _tmd(model.tmd.residual, (model, data, state))
     for k in range(last - 1, -1, -1):
         for j in range(6):
-            s.wrench[k, j] += s.wrench[k + 1, j]
+            wrench[k, j] += wrench[k + 1, j]
 
 
-@kernel
-def body_needs(s: ChainArrays, k: int) -> tuple[Vector, Vector, Vector]:
-    """Force, moment about its centre of mass, and place of that centre, that a body needs."""
-    return round_body_needs(s, k, s.body[k, 0], s.body[k, 1], s.body[k, 2], s.body[k, 3])
-
-
-@kernel
-def round_body_needs(
-    s: ChainArrays, k: int, mass: float, center: float, transverse: float, axial: float
+@inner
+def inertial_wrench(
+    model: Model, data: Data, k: int, mass: float, center: float, transverse: float, axial: float
 ) -> tuple[Vector, Vector, Vector]:
-    """The same for a round body that moves with body k, its centre that far above the frame."""
-    axis, spin, spin_rate = axis_of(s.rotation, k), row_of(s.spin, k), row_of(s.spin_rate, k)
+    """Force and moment that a round body needs for its motion and weight, and where.
+
+    It moves with body k, its centre of mass that far above the frame; the moment is about that
+    centre, whose position comes last.
+    """
+    axis = axis_of(data.rotation, k)
+    angular_velocity = row_of(data.angular_velocity, k)
+    angular_acceleration = row_of(data.angular_acceleration, k)
     arm = scale(center, axis)
-    _, acceleration = carried(
-        arm, row_of(s.velocity, k), spin, row_of(s.acceleration, k), spin_rate
+    _, acceleration = rigid_point_motion(
+        arm,
+        row_of(data.velocity, k),
+        angular_velocity,
+        row_of(data.acceleration, k),
+        angular_acceleration,
     )
-    force = scale(mass, (acceleration[0], acceleration[1], acceleration[2] + s.gravity))
+    force = scale(mass, (acceleration[0], acceleration[1], acceleration[2] + model.gravity))
     more = axial - transverse
-    rate = add(scale(transverse, spin_rate), scale(more * dot(axis, spin_rate), axis))
-    gyroscopic = scale(more * dot(axis, spin), cross(spin, axis))
-    return force, add(rate, gyroscopic), add(row_of(s.origin, k), arm)
-
-
-@kernel
-def rna_needs(s: ChainArrays) -> tuple[Vector, Vector, Vector]:
-    """Force, moment about its centre of mass, and place, that the rotor-nacelle assembly needs."""
-    k = len(s.rise)
-    spin, spin_rate = row_of(s.spin, k), row_of(s.spin_rate, k)
-    center = (s.rna_center[0], s.rna_center[1], s.rna_center[2] + s.top_rise)
-    arm = to_world(s.rotation[k], center)
-    _, acceleration = carried(
-        arm, row_of(s.velocity, k), spin, row_of(s.acceleration, k), spin_rate
+    rate = add(
+        scale(transverse, angular_acceleration), scale(more * dot(axis, angular_acceleration), axis)
     )
-    force = scale(s.rna_mass, (acceleration[0], acceleration[1], acceleration[2] + s.gravity))
-    momentum = rna_inertia_times(s, spin)
-    moment = add(rna_inertia_times(s, spin_rate), cross(spin, momentum))
-    return force, moment, add(row_of(s.origin, k), arm)
+    gyroscopic = scale(more * dot(axis, angular_velocity), cross(angular_velocity, axis))
+    return force, add(rate, gyroscopic), add(row_of(data.position, k), arm)
 
 
-@kernel
-def rna_inertia_times(s: ChainArrays, vector: Vector) -> Vector:
+@inner
+def rna_wrench(model: Model, data: Data) -> tuple[Vector, Vector, Vector]:
+    """The same of the rotor-nacelle assembly."""
+    k = len(model.length)
+    angular_velocity = row_of(data.angular_velocity, k)
+    angular_acceleration = row_of(data.angular_acceleration, k)
+    arm = rna_arm(model, data)
+    _, acceleration = rigid_point_motion(
+        arm,
+        row_of(data.velocity, k),
+        angular_velocity,
+        row_of(data.acceleration, k),
+        angular_acceleration,
+    )
+    force = scale(
+        model.rna_mass, (acceleration[0], acceleration[1], acceleration[2] + model.gravity)
+    )
+    momentum = rna_inertia_times(model, data, angular_velocity)
+    moment = add(
+        rna_inertia_times(model, data, angular_acceleration), cross(angular_velocity, momentum)
+    )
+    return force, moment, add(row_of(data.position, k), arm)
+
+
+@inner
+def rna_arm(model: Model, data: Data) -> Vector:
+    """From the last body's frame to the centre of mass of the rotor-nacelle assembly, in m."""
+    center = model.rna_center
+    arm = (center[0], center[1], center[2] + model.top_length)
+    return to_world(data.rotation, len(model.length), arm)
+
+
+@inner
+def rna_inertia_times(model: Model, data: Data, vector: Vector) -> Vector:
     """Inertia of the rotor-nacelle assembly about its centre, times a vector of the world."""
-    k = len(s.rise)
-    local = to_body(s.rotation[k], vector)
+    k, rotation, inertia = len(model.length), data.rotation, model.rna_inertia
+    local = (
+        rotation[k, 0, 0] * vector[0]
+        + rotation[k, 1, 0] * vector[1]
+        + rotation[k, 2, 0] * vector[2],
+        rotation[k, 0, 1] * vector[0]
+        + rotation[k, 1, 1] * vector[1]
+        + rotation[k, 2, 1] * vector[2],
+        rotation[k, 0, 2] * vector[0]
+        + rotation[k, 1, 2] * vector[1]
+        + rotation[k, 2, 2] * vector[2],
+    )
     turned = (
-        dot(row_of(s.rna_inertia, 0), local),
-        dot(row_of(s.rna_inertia, 1), local),
-        dot(row_of(s.rna_inertia, 2), local),
+        dot(row_of(inertia, 0), local),
+        dot(row_of(inertia, 1), local),
+        dot(row_of(inertia, 2), local),
     )
-    return to_world(s.rotation[k], turned)
-
-
-@kernel
-def to_world(turn: Array, vector: Vector) -> Vector:
-    return (
-        dot(row_of(turn, 0), vector),
-        dot(row_of(turn, 1), vector),
-        dot(row_of(turn, 2), vector),
-    )
-
-
-@kernel
-def to_body(turn: Array, vector: Vector) -> Vector:
-    return (
-        turn[0, 0] * vector[0] + turn[1, 0] * vector[1] + turn[2, 0] * vector[2],
-        turn[0, 1] * vector[0] + turn[1, 1] * vector[1] + turn[2, 1] * vector[2],
-        turn[0, 2] * vector[0] + turn[1, 2] * vector[1] + turn[2, 2] * vector[2],
-    )
-
-
-@kernel
-def add_root(s: ChainArrays, q: Array, v: Array) -> None:
-    """Add the restraint's reaction to the root's residual."""
-    reaction, stiffness, damping = s.root_reaction, s.root_stiffness, s.root_damping
-    numbers, past = s.restraint_numbers, s.memory[s.first_memory[s.loads] :]
-    lost, stored = s.restraint[0](q[:6], v[:6], numbers, past, reaction, stiffness, damping)
-    s.root_power[0], s.root_power[1] = lost, stored
-    for i in range(6):
-        s.residual[i] += reaction[i]
+    return to_world(rotation, k, turned)

@@ -2,7 +2,7 @@
 
 Each is a leaf of the tree: its joints are eliminated first, into the matrix of the body that
 carries it, and solved for last (Featherstone, Rigid Body Dynamics Algorithms, 2008, chapter 7).
-Callers ask first whether there are any, since a call with all the arrays costs as much as a node.
+The chain calls these kernels by address, so that a structure without dampers compiles none.
 """
 
 from __future__ import annotations
@@ -10,224 +10,216 @@ from __future__ import annotations
 import numpy as np
 
 from offwind_pin.base.definition import Array
-from offwind_pin.base.kernels import kernel
-from offwind_pin.dynamics.compiled.chain_arrays import ChainArrays
-from offwind_pin.dynamics.compiled.forward_kinematics import (
+from offwind_pin.base.kernels import inlined, inner
+from offwind_pin.dynamics.compiled.model import (
+    NO_JOINT,
+    Data,
+    Factorisation,
+    Model,
+    State,
     Vector,
+)
+from offwind_pin.dynamics.compiled.newton_matrix import (
+    tmd_after_kernel,
+    tmd_before_kernel,
+    tmd_eliminate_kernel,
+)
+from offwind_pin.dynamics.compiled.recording import tmd_between_kernel, tmd_energies_kernel
+from offwind_pin.dynamics.compiled.residual import tmd_residual_kernel
+from offwind_pin.dynamics.compiled.vectors import (
     add,
+    add_arm,
+    add_inertia,
     axis_of,
-    carried,
     cross,
     dot,
+    rigid_point_motion,
     row_of,
     scale,
     store,
 )
-from offwind_pin.dynamics.compiled.spatial import add_arm, add_inertia
-
-NO_JOINT = -1
-"""In place of the number of a joint that a damper does not have."""
 
 
-@kernel
-def move_sliders(s: ChainArrays, q: Array, v: Array, a: Array) -> None:
-    """Set place, velocity and acceleration of the dampers' masses, and their joints' columns."""
-    for d in range(len(s.slider_body)):
-        k = s.slider_body[d]
-        spin, spin_rate = row_of(s.spin, k), row_of(s.spin_rate, k)
-        arm = scale(s.slider[d, 1], axis_of(s.rotation, k))
-        slip = (0.0, 0.0, 0.0)
-        rate = (0.0, 0.0, 0.0)
-        second = (0.0, 0.0, 0.0)
-        for i in range(2):
-            dof = s.slider_joint[d, i]
-            if dof == NO_JOINT:
-                continue
-            axis = (s.rotation[k, 0, i], s.rotation[k, 1, i], s.rotation[k, 2, i])
-            slip = add(slip, scale(q[dof], axis))
-            rate = add(rate, scale(v[dof], axis))
-            second = add(second, scale(a[dof], axis))
-            for j in range(3):
-                s.joint[dof, j], s.joint[dof, 3 + j] = axis[j], 0.0
-        arm = add(arm, slip)
-        velocity, acceleration = carried(
-            arm, row_of(s.velocity, k), spin, row_of(s.acceleration, k), spin_rate
-        )
-        store(s.slider_place, d, add(row_of(s.origin, k), arm))
-        store(s.slider_velocity, d, add(velocity, rate))
-        coriolis = scale(2.0, cross(spin, rate))
-        store(s.slider_acceleration, d, add(acceleration, add(coriolis, second)))
-
-
-@kernel
-def slider_needs(s: ChainArrays, d: int) -> Vector:
-    """Force in N that a damper's mass needs for its motion and its weight."""
-    x, y, z = row_of(s.slider_acceleration, d)
-    return scale(s.slider[d, 0], (x, y, z + s.gravity))
-
-
-@kernel
-def load_carriers(s: ChainArrays) -> None:
-    """Take what the dampers' masses need off the wrench on their carriers alone."""
-    for d in range(len(s.slider_body)):
-        k, need = s.slider_body[d], slider_needs(s, d)
-        moment = cross(row_of(s.slider_place, d), need)
+@tmd_residual_kernel
+def tmd_residual(model: Model, data: Data, state: State) -> None:
+    """Set the residual of the dampers' joints, and take their masses off the carriers' wrenches."""
+    q, v, tmd = state.q, state.v, model.tmd
+    for d in range(len(tmd.body)):
+        move_damper(model, data, state, d)
+        k, need = tmd.body[d], tmd_force(model, data, d)
+        moment = cross(row_of(data.tmd_position, d), need)
         for j in range(3):
-            s.wrench[k, j] -= need[j]
-            s.wrench[k, 3 + j] -= moment[j]
-
-
-@kernel
-def balance_sliders(s: ChainArrays, q: Array, v: Array) -> None:
-    """Set the residual of the dampers' joints."""
-    for d in range(len(s.slider_body)):
-        need = slider_needs(s, d)
+            data.wrench[k, j] -= need[j]
+            data.wrench[k, 3 + j] -= moment[j]
         for i in range(2):
-            dof = s.slider_joint[d, i]
+            dof = tmd.joint[d, i]
             if dof != NO_JOINT:
-                held = s.stiffness[dof] * q[dof] + s.damping[dof] * v[dof]
-                s.residual[dof] = held + dot(row_of(s.joint, dof), need)
+                held = model.stiffness[dof] * q[dof] + model.damping[dof] * v[dof]
+                data.residual[dof] = held + dot(row_of(data.joint, dof), need)
 
 
-@kernel
-def eliminate_sliders(s: ChainArrays, by_v: float, by_a: float) -> None:
+@inlined
+def move_damper(model: Model, data: Data, state: State, d: int) -> None:
+    """Set position, velocity and acceleration of a damper's mass, and its joints' columns."""
+    k, rotation, joint = model.tmd.body[d], data.rotation, data.joint
+    angular_velocity = row_of(data.angular_velocity, k)
+    stroke = (0.0, 0.0, 0.0)
+    rate = (0.0, 0.0, 0.0)
+    second = (0.0, 0.0, 0.0)
+    for i in range(2):
+        dof = model.tmd.joint[d, i]
+        if dof == NO_JOINT:
+            continue
+        axis = (rotation[k, 0, i], rotation[k, 1, i], rotation[k, 2, i])
+        stroke = add(stroke, scale(state.q[dof], axis))
+        rate = add(rate, scale(state.v[dof], axis))
+        second = add(second, scale(state.a[dof], axis))
+        for j in range(3):
+            joint[dof, j], joint[dof, 3 + j] = axis[j], 0.0
+    arm = add(scale(model.tmd.offset[d], axis_of(rotation, k)), stroke)
+    velocity, acceleration = rigid_point_motion(
+        arm,
+        row_of(data.velocity, k),
+        angular_velocity,
+        row_of(data.acceleration, k),
+        row_of(data.angular_acceleration, k),
+    )
+    coriolis = scale(2.0, cross(angular_velocity, rate))
+    store(data.tmd_position, d, add(row_of(data.position, k), arm))
+    store(data.tmd_velocity, d, add(velocity, rate))
+    store(data.tmd_acceleration, d, add(acceleration, add(coriolis, second)))
+
+
+@inner
+def tmd_force(model: Model, data: Data, d: int) -> Vector:
+    """Force in N that a damper's mass needs for its motion and its weight."""
+    x, y, z = row_of(data.tmd_acceleration, d)
+    return scale(model.tmd.mass[d], (x, y, z + model.gravity))
+
+
+@tmd_eliminate_kernel
+def tmd_eliminate(
+    model: Model, data: Data, factors: Factorisation, dv_dq: float, da_dq: float
+) -> None:
     """Eliminate the dampers' joints: what is left of their matrices goes to their carriers.
 
     Their own axes turn with the carrier, which the wrench on the carrier accounts for on the joints
     below; sliding turns no axis, so that the pivot blocks need no such term.
     """
-    point, matrix, inverse = np.zeros((3, 3)), np.zeros((6, 6)), np.zeros((2, 2))
-    turning = np.zeros(6)
-    for d in range(len(s.slider_body)):
-        need, place = slider_needs(s, d), row_of(s.slider_place, d)
-        matrix[:] = 0.0
-        add_inertia(matrix, by_a, s.slider[d, 0], place, point)
-        add_arm(matrix, place, scale(-1.0, need))
-        block = s.slider_pivot[d]
-        block[:] = 0.0
+    carry, follow, pivots = factors.carry, factors.follow, factors.tmd_pivot
+    point, matrices, turning = np.zeros((3, 3)), np.zeros((1, 6, 6)), np.zeros(6)
+    matrix = matrices[0]
+    for d in range(len(model.tmd.body)):
+        need, position = tmd_force(model, data, d), row_of(data.tmd_position, d)
+        matrix.fill(0.0)
+        add_inertia(matrices, 0, da_dq, model.tmd.mass[d], position, point)
+        add_arm(matrices, 0, position, scale(-1.0, need))
+        block = pivots[d]
+        block.fill(0.0)
         for i in range(2):
-            dof = s.slider_joint[d, i]
+            dof = model.tmd.joint[d, i]
             if dof == NO_JOINT:
                 block[i, i] = 1.0
                 continue
             # Work of the held force on the joint's axis as the carrier turns it
-            axis = row_of(s.joint, dof)
-            turn = cross(need, axis)
+            axis = row_of(data.joint, dof)
+            turned = cross(need, axis)
             for j in range(3):
-                turning[3 + j] = turn[j]
+                turning[3 + j] = turned[j]
             for j in range(6):
-                carry, back = 0.0, -turning[j]
+                passed, returned = 0.0, -turning[j]
                 for m in range(3):
-                    carry += matrix[j, m] * axis[m]
-                    back += matrix[m, j] * axis[m]
-                s.joint_then[dof, j] = s.joint[dof, j]
-                s.carry[dof, j], s.follow[dof, j] = carry, back
-            block[i, i] = s.stiffness[dof] + by_v * s.damping[dof]
+                    passed += matrix[j, m] * axis[m]
+                    returned += matrix[m, j] * axis[m]
+                factors.joint[dof, j] = data.joint[dof, j]
+                carry[dof, j], follow[dof, j] = passed, returned
+            block[i, i] = model.stiffness[dof] + dv_dq * model.damping[dof]
         for i in range(2):
             for m in range(2):
-                first, other = s.slider_joint[d, i], s.slider_joint[d, m]
+                first, other = model.tmd.joint[d, i], model.tmd.joint[d, m]
                 if first != NO_JOINT and other != NO_JOINT:
                     for j in range(3):
-                        block[i, m] += s.joint[first, j] * s.carry[other, j]
-        determinant = block[0, 0] * block[1, 1] - block[0, 1] * block[1, 0]
+                        block[i, m] += data.joint[first, j] * carry[other, j]
+        a, b, c, e = block[0, 0], block[0, 1], block[1, 0], block[1, 1]
+        determinant = a * e - b * c
         if determinant == 0:
             raise np.linalg.LinAlgError("Matrix is singular to machine precision.")
-        inverse[0, 0], inverse[1, 1] = block[1, 1] / determinant, block[0, 0] / determinant
-        inverse[0, 1], inverse[1, 0] = -block[0, 1] / determinant, -block[1, 0] / determinant
-        block[:] = inverse
-        follow_through(s, d, matrix)
-        carrier = s.articulated[s.slider_body[d]]
+        block[0, 0], block[1, 1] = e / determinant, a / determinant
+        block[0, 1], block[1, 0] = -b / determinant, -c / determinant
+        follow_through(model, factors, d, matrix)
+        k = model.tmd.body[d]
         for i in range(6):
             for j in range(6):
-                carrier[i, j] += matrix[i, j]
+                factors.articulated[k, i, j] += matrix[i, j]
 
 
-@kernel
-def follow_through(s: ChainArrays, d: int, matrix: Array) -> None:
+@inlined
+def follow_through(model: Model, factors: Factorisation, d: int, matrix: Array) -> None:
     """Set how a damper's joints follow its carrier, and take what that relieves off its matrix."""
-    x, y = s.slider_joint[d, 0], s.slider_joint[d, 1]
+    carry, follow = factors.carry, factors.follow
+    x, y = model.tmd.joint[d, 0], model.tmd.joint[d, 1]
     for j in range(6):
-        along_x = s.follow[x, j] if x != NO_JOINT else 0.0
-        along_y = s.follow[y, j] if y != NO_JOINT else 0.0
+        along_x = follow[x, j] if x != NO_JOINT else 0.0
+        along_y = follow[y, j] if y != NO_JOINT else 0.0
         for i in range(2):
-            dof = s.slider_joint[d, i]
+            dof = model.tmd.joint[d, i]
             if dof != NO_JOINT:
-                value = s.slider_pivot[d, i, 0] * along_x + s.slider_pivot[d, i, 1] * along_y
-                s.follow[dof, j] = value
+                value = factors.tmd_pivot[d, i, 0] * along_x + factors.tmd_pivot[d, i, 1] * along_y
+                follow[dof, j] = value
                 for m in range(6):
-                    matrix[m, j] -= s.carry[dof, m] * value
+                    matrix[m, j] -= carry[dof, m] * value
 
 
-@kernel
-def slide_alone(s: ChainArrays, right: Array, k: int, down: Array) -> None:
-    """Solve for the dampers on body k as if it stood still, and add what they pass down to it."""
-    for d in range(len(s.slider_body)):
-        if s.slider_body[d] != k:
-            continue
+@tmd_before_kernel
+def tmd_before(model: Model, factors: Factorisation, rhs: Array) -> None:
+    """Solve for the dampers as if their carriers were at rest, and for what they pass down."""
+    for d in range(len(model.tmd.body)):
+        for j in range(6):
+            factors.tmd_passed[d, j] = 0.0
         for i in range(2):
-            dof = s.slider_joint[d, i]
+            dof = model.tmd.joint[d, i]
             if dof == NO_JOINT:
                 continue
             value = 0.0
             for m in range(2):
-                other = s.slider_joint[d, m]
+                other = model.tmd.joint[d, m]
                 if other != NO_JOINT:
-                    value += s.slider_pivot[d, i, m] * right[other]
-            s.solution[dof] = value
+                    value += factors.tmd_pivot[d, i, m] * rhs[other]
+            factors.solution[dof] = value
             for j in range(6):
-                down[j] += s.carry[dof, j] * value
+                factors.tmd_passed[d, j] += factors.carry[dof, j] * value
 
 
-@kernel
-def slide_along(s: ChainArrays, k: int, twist: Array) -> None:
-    """Complete the solution for the dampers on body k with the twist of that body."""
-    for d in range(len(s.slider_body)):
-        if s.slider_body[d] == k:
-            for i in range(2):
-                dof = s.slider_joint[d, i]
-                if dof != NO_JOINT:
-                    for j in range(6):
-                        s.solution[dof] -= s.follow[dof, j] * twist[j]
+@tmd_after_kernel
+def tmd_after(model: Model, factors: Factorisation) -> None:
+    """Complete the solution for the dampers with the twists of their carriers."""
+    for d in range(len(model.tmd.body)):
+        for i in range(2):
+            dof = model.tmd.joint[d, i]
+            if dof != NO_JOINT:
+                for j in range(6):
+                    factors.solution[dof] -= factors.follow[dof, j] * factors.tmd_passed[d, j]
 
 
-@kernel
-def unstable_sliders(s: ChainArrays) -> int:
-    """Number of negative eigenvalues of the dampers' pivot blocks; those of no joint are one."""
-    negative = 0
-    for d in range(len(s.slider_body)):
-        block = s.slider_pivot[d].copy()
-        negative += int(np.sum(np.linalg.eigvalsh((block + block.T) / 2) <= 0))
-    return negative
-
-
-@kernel
-def sliders_between(s: ChainArrays, low: float, high: float) -> tuple[Vector, Vector]:
+@tmd_between_kernel
+def tmd_between(model: Model, data: Data, low: float, high: float) -> tuple[Vector, Vector]:
     """Force, and moment about the world's origin, that dampers with low <= z < high need."""
     force = moment = (0.0, 0.0, 0.0)
-    for d in range(len(s.slider_body)):
-        if low <= s.slider[d, 2] < high:
-            need = slider_needs(s, d)
+    for d in range(len(model.tmd.body)):
+        if low <= model.tmd.height[d] < high:
+            need = tmd_force(model, data, d)
             force = add(force, need)
-            moment = add(moment, cross(row_of(s.slider_place, d), need))
+            moment = add(moment, cross(row_of(data.tmd_position, d), need))
     return force, moment
 
 
-@kernel
-def slider_energies(s: ChainArrays) -> tuple[float, float]:
+@tmd_energies_kernel
+def tmd_energies(model: Model, data: Data) -> tuple[float, float]:
     """Kinetic and gravitational energy (zero undeformed) of the dampers' masses in J."""
     kinetic = gravitational = 0.0
-    for d in range(len(s.slider_body)):
-        velocity = row_of(s.slider_velocity, d)
-        kinetic += s.slider[d, 0] * dot(velocity, velocity) / 2
-        rise = s.slider_place[d, 2] - s.slider[d, 2]
-        gravitational += s.slider[d, 0] * s.gravity * rise
+    for d in range(len(model.tmd.body)):
+        velocity = row_of(data.tmd_velocity, d)
+        kinetic += model.tmd.mass[d] * dot(velocity, velocity) / 2
+        lifted = data.tmd_position[d, 2] - model.tmd.height[d]
+        gravitational += model.tmd.mass[d] * model.gravity * lifted
     return kinetic, gravitational
-
-
-@kernel
-def slips(s: ChainArrays, q: Array, result: Array) -> None:
-    """Set (D, 2) displacements of the dampers' masses along x and y of their carriers in m."""
-    for d in range(len(s.slider_body)):
-        for i in range(2):
-            dof = s.slider_joint[d, i]
-            result[d, i] = q[dof] if dof != NO_JOINT else 0.0

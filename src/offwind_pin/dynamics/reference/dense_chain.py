@@ -17,7 +17,7 @@ from offwind_pin.dynamics.resting_axis import RestingAxis
 class DenseChain:
     """Residual and exact iteration matrix of a system under loads.
 
-    Of a row of numbers that depend on time alone only the first, the time, is used.
+    Of the time inputs only the first, the time, is used.
     """
 
     def __init__(self, equations: Equations) -> None:
@@ -26,26 +26,28 @@ class DenseChain:
         self._matrix = np.zeros((nv, nv))
         self._factors = (self._matrix, np.zeros(nv, dtype=np.int32))
 
-    def rows(self, time: Array) -> Array:
+    def time_inputs(self, time: Array) -> Array:
         """(t, 1) times (t,) in s."""
         return np.asarray(time, dtype=float)[:, None]
 
-    def residual(self, row: Array, q: Array, v: Array, a: Array) -> Array:
+    def residual(self, time_inputs: Array, q: Array, v: Array, a: Array) -> Array:
         """(nv,) generalised forces out of balance, in N and N m."""
-        return self.equations.residual(float(row[0]), q, v, a)
+        return self.equations.residual(float(time_inputs[0]), q, v, a)
 
-    def factorise(self, row: Array, q: Array, v: Array, a: Array, by_v: float, by_a: float) -> None:
-        """Make the iteration matrix by_a dr/da + by_v dr/dv + dr/dq about a state.
+    def factorise(
+        self, time_inputs: Array, q: Array, v: Array, a: Array, dv_dq: float, da_dq: float
+    ) -> None:
+        """Make the iteration matrix da_dq dr/da + dv_dq dr/dv + dr/dq about a state.
 
         Raises
         ------
         LinAlgError : it is singular
         """
-        time = float(row[0])
+        time = float(time_inputs[0])
         stiffness, damping = self.equations.tangents(time, q, v, a)
-        self._matrix = stiffness + by_v * damping
-        if by_a:
-            self._matrix += by_a * self.equations.mass(q, time)
+        self._matrix = stiffness + dv_dq * damping
+        if da_dq:
+            self._matrix += da_dq * self.equations.mass(q, time)
         lu, pivots = lu_factor(self._matrix, check_finite=False)
         if not np.all(np.diag(lu)):
             raise np.linalg.LinAlgError("Matrix is singular to machine precision.")
@@ -69,9 +71,9 @@ class DenseChain:
     def memory(self, past: Array) -> None:
         self.equations.memory = past
 
-    def at_rest(self, row: Array, q: Array, height: Array) -> RestingAxis:
+    def at_rest(self, time_inputs: Array, q: Array, height: Array) -> RestingAxis:
         """Axis and section loads of a state of rest, which soil and foundation then remember."""
-        time, rest = float(row[0]), np.zeros_like(q)
+        time, rest = float(time_inputs[0]), np.zeros_like(q)
         self.equations.commit(time, q, rest, rest)
         motion = self.equations.chain_motion(q, rest)
         return RestingAxis(

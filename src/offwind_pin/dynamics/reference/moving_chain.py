@@ -6,7 +6,7 @@ import numpy as np
 
 from offwind_pin.base.definition import Array
 from offwind_pin.dynamics.compiled.chain import CompiledChain
-from offwind_pin.dynamics.compiled.recorder_arrays import RecorderArrays
+from offwind_pin.dynamics.compiled.recorder import Recorder
 from offwind_pin.dynamics.reference.dense_chain import DenseChain
 from offwind_pin.solvers import generalized_alpha
 
@@ -19,20 +19,21 @@ class MovingChain(CompiledChain):
     """
 
     def start(self, q: Array) -> Array:
-        chain, row = DenseChain(self.equations()), self.rows(np.zeros(1))[0]
-        return generalized_alpha.start(chain, row, q, np.zeros_like(q))
+        chain = DenseChain(self.equations())
+        time_inputs = self.time_inputs(np.zeros(1))[0]
+        return generalized_alpha.start(chain, time_inputs, q, np.zeros_like(q))
 
     def advance(
         self,
-        recorder: RecorderArrays,
+        recorder: Recorder,
         method: generalized_alpha.Method,
         vectors: Array,
         instants: Array,
         last: Array,
     ) -> tuple[int, int, float]:
         stepping = _RecordedChain(self, recorder, method.scale)
-        rows = self.rows(instants)
-        result = generalized_alpha.advance(stepping, method, vectors, rows, last)
+        time_inputs = self.time_inputs(instants)
+        result = generalized_alpha.advance(stepping, method, vectors, time_inputs, last)
         self.memory = stepping.memory
         return result
 
@@ -40,7 +41,7 @@ class MovingChain(CompiledChain):
 class _RecordedChain(DenseChain):
     """Pinocchio's equations, whose steps a compiled chain records."""
 
-    def __init__(self, recording: CompiledChain, recorder: RecorderArrays, scale: float) -> None:
+    def __init__(self, recording: CompiledChain, recorder: Recorder, scale: float) -> None:
         super().__init__(recording.equations())
         self._recording = recording
         self._recorder = recorder

@@ -314,32 +314,3 @@ def _labels(names: Sequence[str] | None, channels: int) -> tuple[str, ...]:
             "names", f"{len(labels)} names", f"{channels}, one to each channel", "Complete them."
         )
     return labels or tuple(f"channel {i + 1}" for i in range(channels))
-
-
-@dataclass(frozen=True, eq=False)
-class IdentifiedModes:
-    """Identified modes beside those of the eigenanalysis, m of them at n nodes.
-
-    Attributes
-    ----------
-    label : of the modes
-    height : (n,) of the nodes in m
-    found : out of the accelerations
-    frequency_hz, damping_ratio : (m,) of the eigenanalysis
-    shape : (m, n) of the eigenanalysis at the nodes, unit peak among them
-    assurance : (m,) modal assurance of identified and computed shapes
-    peak_height_ratio : (m,) height of the identified peak, mudline 0, yaw bearing 1; between nodes
-        by a parabola
-    duration, seed : of the record in s, and of the white noise
-    """
-
-    label: tuple[str, ...]
-    height: Array
-    found: OperationalModes
-    frequency_hz: Array
-    damping_ratio: Array
-    shape: Array
-    assurance: Array
-    peak_height_ratio: Array
-    duration: float
-    seed: int

@@ -38,7 +38,7 @@ def residual() -> float:
     system = _system()
     q, v, a = 0.1 * np.random.default_rng(1).uniform(-1, 1, (3, system.nv))
     chain = CompiledChain(system)
-    ours = chain.residual(chain.rows(np.array([_TIME]))[0], q, v, a)
+    ours = chain.residual(chain.time_inputs(np.array([_TIME]))[0], q, v, a)
     other = system.equations().residual(_TIME, q, v, a)
     slides = np.array([name[-2] == "p" for name in system.chain.joint_name])
     return max(_difference(ours[kind], other[kind]) for kind in (slides, ~slides))

@@ -83,7 +83,7 @@ def _load_case(name: str) -> dict[str, Any]:
     """Summary of a shipped load case, run as a user runs it."""
     case = load_case(name)
     with tempfile.TemporaryDirectory() as out:
-        run_case(case, Path(out))
+        run_case(case, Path(out), report=False)
         summary: dict[str, Any] = json.loads((Path(out) / "summary.json").read_text())
     return summary
 

@@ -1,13 +1,17 @@
-"""The numbers behind the pictures of a sea and its loads."""
+"""The waves of a run and their loads as data: profiles, spectra and forces over height."""
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+import xarray as xr
 
+from offwind_pin.analysis.wave_checks import wave_facts
 from offwind_pin.base.definition import Array
+from offwind_pin.dynamics.system import System
 from offwind_pin.loads.sea.forces.morison import MorisonForce
 from offwind_pin.loads.sea.forces.strips import wet_share
 from offwind_pin.loads.sea.hydrodynamic_loads import Waters
@@ -15,6 +19,8 @@ from offwind_pin.loads.sea.irregular_waves import IrregularWaves
 from offwind_pin.loads.sea.kinematics import WaterSeries, WaterSurface
 from offwind_pin.loads.sea.sea import Sea
 from offwind_pin.loads.sea.waves.wave_field import WaveField
+from offwind_pin.results.reading import analysed
+from offwind_pin.signal.spectra import power_spectral_density
 
 _HEIGHTS = 121
 """Heights of a profile between the mudline and the highest surface."""
@@ -26,8 +32,198 @@ _SPECTRUM = 20
 _AT_ONCE = 2000
 _MOST_INSTANTS = 20000
 """Instants of an envelope of forces; of a longer time every second one, third one, ..."""
+_SHOWN_DEPTH = 5e-3
+"""A spectrum is shown where it exceeds this share of its largest value."""
+_TARGET_LINES = 400
+INSTANTS = ("crest", "zero crossing before it", "trough after it")
 
 Density = Callable[[Array], Array]
+Spectrum = tuple[Array, Array]
+"""Frequencies (f,) in Hz and densities (f,) in m2/Hz."""
+
+
+def waves_dataset(
+    system: System, histories: xr.Dataset | None, segment: float
+) -> xr.Dataset | None:
+    """The realised waves, and their kinematics, spectrum and forces in a run.
+
+    Parameters
+    ----------
+    histories : time histories, or None where none exist
+    segment : float, s; longest Welch segment of the spectrum of the run
+
+    Returns
+    -------
+    Dataset : None for a sea without waves; without histories after the ramp it consists of
+        attributes alone
+    """
+    waters, sea = system.waters, system.sea
+    waves = None if waters is None else waters.surface.waves
+    if waters is None or sea is None or waves is None:
+        return None
+    facts = wave_facts(system)
+    for name in ("notes", "cautions"):
+        facts[name] = json.dumps(facts[name])
+    data = xr.Dataset(
+        attrs=facts
+        | {
+            "waves": sea.in_words,
+            "stretching": sea.stretching,
+            "exact_surface": int(waves.exact_surface),
+            "mudline_m": system.turbine.site.mudline,
+            "water_level_m": waters.surface.level,
+        }
+    )
+    part = None if histories is None else analysed(histories)
+    if part is None or part.sizes["time"] < 2:
+        return data
+    time = np.asarray(part["time"].to_numpy(), dtype=float)
+    elevation = np.asarray(part["wave_elevation"].to_numpy(), dtype=float)
+    moment = part["mudline_moment"].sel(direction=["x", "y"]).to_numpy()
+    crest = float(time[np.argmax(elevation)])
+    worst = float(time[np.argmax(np.linalg.norm(moment, axis=1))])
+    along = wave_direction(waves)
+    when = phases(waters.surface, waves, crest)
+    shown = profiles(waters, sea, np.array([when.crest, when.crossing, when.trough]))
+    force = waters.wave_force()
+    variables = {
+        **_profile_variables(shown),
+        **_force_variables(
+            force_per_length(force, np.array([worst]), along), force_envelope(force, time, along)
+        ),
+    }
+    if has_spectrum(waves):
+        window = min(segment, float(time[-1] - time[0]))
+        run = power_spectral_density(elevation, float(time[1] - time[0]), window)
+        bands = component_density(waves, 1 / window)
+        target = target_density(sea, waves.depth, waves.gravity)
+        variables |= _spectrum_variables(run, bands, target)
+        data.attrs["segment_s"] = window
+    data.attrs |= {"crest_s": crest, "worst_s": worst, "along_x": along[0], "along_y": along[1]}
+    about = {"long_name": "instant of the profile"}
+    return data.assign(
+        {
+            name: (dims, values, {"long_name": text, "units": unit})
+            for name, (dims, values, text, unit) in variables.items()
+        }
+    ).assign_coords(
+        instant=("instant", list(INSTANTS), about),
+        axis=("axis", ["x", "y"], {"long_name": "axis of the inertial frame"}),
+    )
+
+
+_Variables = dict[str, tuple[tuple[str, ...], Array, str, str]]
+
+
+def _profile_variables(shown: list[Profile]) -> _Variables:
+    highest = max(shown, key=lambda profile: len(profile.height))
+    count = len(highest.height)
+
+    def padded(values: Array) -> Array:
+        return np.pad(values, ((0, count - len(values)), (0, 0)), constant_values=np.nan)
+
+    over = ("instant", "height", "axis")
+    velocity = np.array([padded(profile.velocity) for profile in shown])
+    acceleration = np.array([padded(profile.acceleration) for profile in shown])
+    return {
+        "profile_time": (
+            ("instant",),
+            np.array([profile.time for profile in shown]),
+            "time of the profile",
+            "s",
+        ),
+        "profile_elevation": (
+            ("instant",),
+            np.array([profile.elevation for profile in shown]),
+            "surface elevation relative to the mean water level",
+            "m",
+        ),
+        "profile_height": (("height",), highest.height, "height of the profile point", "m"),
+        "velocity": (over, velocity, "velocity of the water, NaN above the surface", "m/s"),
+        "acceleration": (
+            over,
+            acceleration,
+            "acceleration of the water, NaN above the surface",
+            "m/s2",
+        ),
+        "current": (("height", "axis"), highest.current, "velocity of the current", "m/s"),
+    }
+
+
+def _force_variables(worst: ForcePerLength, envelope: tuple[Array, Array]) -> _Variables:
+    values = {
+        "strip_height": (worst.height, "height of the middle of the strip", "m"),
+        "strip_length": (worst.length, "length of the strip", "m"),
+        "inertia": (worst.inertia[0], "fluid inertia force at the instant worst_s", "N/m"),
+        "drag": (worst.drag[0], "drag force at the instant worst_s", "N/m"),
+        "smallest_force": (envelope[0], "smallest force after the ramp", "N/m"),
+        "largest_force": (envelope[1], "largest force after the ramp", "N/m"),
+    }
+    return {name: (("strip",), *entry) for name, entry in values.items()}
+
+
+def _spectrum_variables(run: Spectrum, bands: Spectrum, target: Density | None) -> _Variables:
+    about = {
+        "run": (run, "spectrum of the surface after the ramp"),
+        "band": (bands, "spectrum of the components in bands"),
+    }
+    if target is not None:
+        start, end = frequency_range(run, bands)
+        lines = np.linspace(max(start / 2, end / 1000), 1.05 * end, _TARGET_LINES)
+        about["target"] = ((lines, target(lines)), "target spectrum")
+    variables: _Variables = {}
+    for name, ((frequency, density), text) in about.items():
+        line = (f"{name}_line",)
+        variables[f"{name}_frequency"] = (line, frequency, "frequency", "Hz")
+        variables[f"{name}_density"] = (line, density, text, "m2/Hz")
+    return variables
+
+
+def profiles_of(data: xr.Dataset) -> list[Profile]:
+    """The profiles of :func:`waves_dataset`."""
+    height, current = data["profile_height"].to_numpy(), data["current"].to_numpy()
+    shown = []
+    for i in range(data.sizes["instant"]):
+        velocity = data["velocity"][i].to_numpy()
+        wet = np.isfinite(velocity[:, 0])
+        shown.append(
+            Profile(
+                float(data["profile_time"][i]),
+                float(data["profile_elevation"][i]),
+                height[wet],
+                velocity[wet],
+                data["acceleration"][i].to_numpy()[wet],
+                current[wet],
+            )
+        )
+    return shown
+
+
+def worst_force_of(data: xr.Dataset) -> ForcePerLength:
+    """The forces of :func:`waves_dataset` at the instant of the largest mudline moment."""
+    return ForcePerLength(
+        np.array([float(data.attrs["worst_s"])]),
+        data["strip_height"].to_numpy(),
+        data["strip_length"].to_numpy(),
+        data["inertia"].to_numpy()[None],
+        data["drag"].to_numpy()[None],
+    )
+
+
+def spectrum_of(data: xr.Dataset, name: str) -> Spectrum | None:
+    """The spectrum ``run``, ``band`` or ``target`` of :func:`waves_dataset`."""
+    if f"{name}_density" not in data:
+        return None
+    return data[f"{name}_frequency"].to_numpy(), data[f"{name}_density"].to_numpy()
+
+
+def frequency_range(*spectra: Spectrum | None) -> tuple[float, float]:
+    """Lowest and highest frequency in Hz at which one of some spectra is worth showing."""
+    given = [pair for pair in spectra if pair is not None]
+    frequency, density = (np.concatenate(parts) for parts in zip(*given, strict=True))
+    # A quiet run may lie below all of this, and so have no frequency of its own in it
+    high = frequency[density > _SHOWN_DEPTH * density.max()]
+    return float(high.min()), float(high.max())
 
 
 def wave_direction(waves: WaveField) -> Array:

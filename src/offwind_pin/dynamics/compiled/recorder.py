@@ -1,4 +1,4 @@
-"""What a time history records, as plain arrays for compiled code."""
+"""What a time history records: the records of the compiled code."""
 
 from __future__ import annotations
 
@@ -9,8 +9,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from offwind_pin.base.definition import Array
+from offwind_pin.base.records import (
+    Count,
+    Counts,
+    Counts2,
+    Numbers,
+    Numbers2,
+    Numbers3,
+    Record,
+)
 from offwind_pin.dynamics.base_excitation import is_soil
-from offwind_pin.dynamics.compiled.chain_arrays import ChainArrays
+from offwind_pin.dynamics.compiled.model import Model
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.point_load import PointLoad
 from offwind_pin.structure.chain import NDArrayInt
@@ -26,76 +35,128 @@ GROUND = 0
 """First column of the energies worked, by a moving ground; a void one and the loads' follow."""
 
 
-class Cuts(NamedTuple):
+class Cuts(Record):
     """Cuts of the chain at fixed heights: m cuts, each through one body.
 
     The piece between a cut and the upper end of its body is one round rigid body more.
+
+    Attributes
+    ----------
+    height : (m,) in m
+    body : (m,) that is cut
+    offset : (m,) of the cut along it in m
+    end : (m,) height at which that body ends in m, beyond everything for the last one
+    piece : (m, 4) mass, centre along the body, transverse and axial inertia
+    first : (m + 1,) where the points above each cut begin in the next array
+    point : loaded points of a cut's own body that lie above it
     """
 
-    height: Array  # (m,) in m
-    body: NDArrayInt  # (m,) that is cut
-    offset: Array  # (m,) of the cut along it in m
-    end: Array  # (m,) height at which that body ends in m, beyond everything for the last one
-    piece: Array  # (m, 4) mass, centre along the body, transverse and axial inertia
-    first: NDArrayInt  # (m + 1,) where the points above each cut begin in the next array
-    point: NDArrayInt  # loaded points of a cut's own body that lie above it
+    height: Numbers
+    body: Counts
+    offset: Numbers
+    end: Numbers
+    piece: Numbers2
+    first: Counts
+    point: Counts
 
 
-class Segments(NamedTuple):
+class Segments(Record):
     """Parts of the chain between two of its cuts each: g segments.
 
     Each is a list of round pieces, one for each body that it has part in, and of loaded points.
+
+    Attributes
+    ----------
+    cut : (g, 2) lower and upper cut
+    first_piece : (g + 1,) where each segment's pieces begin in the next two arrays
+    body : body that a piece moves with
+    piece : mass, centre along the body, transverse and axial inertia
+    first_point : (g + 1,) where each segment's points begin in the next array
+    point : loaded points above the lower and not above the upper cut
     """
 
-    cut: NDArrayInt  # (g, 2) lower and upper cut
-    first_piece: NDArrayInt  # (g + 1,) where each segment's pieces begin in the next two arrays
-    body: NDArrayInt  # body that a piece moves with
-    piece: Array  # mass, centre along the body, transverse and axial inertia
-    first_point: NDArrayInt  # (g + 1,) where each segment's points begin in the next array
-    point: NDArrayInt  # loaded points above the lower and not above the upper cut
+    cut: Counts2
+    first_piece: Counts
+    body: Counts
+    piece: Numbers2
+    first_point: Counts
+    point: Counts
 
 
-class SoilNodes(NamedTuple):
-    """Heights at which soil acts: n of them, each with one loaded point or more."""
+class SoilNodes(Record):
+    """Heights at which soil acts: n of them, each with one loaded point or more.
 
-    height: Array  # (n,) in m, rising
-    point: NDArrayInt  # (S,) loaded points of the soil
-    node: NDArrayInt  # (S,) height that each belongs to
+    Attributes
+    ----------
+    height : (n,) in m, rising
+    point : (S,) loaded points of the soil
+    node : (S,) height that each belongs to
+    """
+
+    height: Numbers
+    point: Counts
+    node: Counts
 
 
-class RecorderArrays(NamedTuple):
-    """Room for T records at m cuts and g segments under L loads, and sums that go on."""
+class Recorder(Record):
+    """Room for T records at m cuts and g segments under L loads, and running sums.
+
+    Attributes
+    ----------
+    cuts, segments, soil : what is recorded
+    every : steps between records
+    energies : (L,) addresses of the loads' kernels; 0 for a load that stores none
+    commit, at_cuts : addresses of the kernels that end a step, 0 without memory, and that record
+        motions and section loads
+    tally : (2,) steps taken, records made
+    clock : (1,) time of the last step in s
+    power, energy : (2, L + 2) dissipated and worked, at the last step in W and so far in J
+    now : (2, L + 2) power of the step that is being noted
+    time : (T,) in s
+    displacement, acceleration : (T, m, 3) in m and m/s2
+    section_load : (T, m, 6) in N and N m
+    imbalance : (T, g, 6) of the segments in N and N m
+    soil_force : (T, n, 3) of the soil on the pile in N
+    stroke : (T, D, 2) of the tuned mass dampers along x and y of their carriers in m
+    stored : (T, L + 4) energies that the state holds in J, see :data:`STATE_ENERGIES`
+    dissipated, worked : (T, L + 2) in J; see :data:`GROUND`
+    iterations : (T,)
+    residual : (T,) largest entry over the load scale
+    """
 
     cuts: Cuts
     segments: Segments
     soil: SoilNodes
-    every: int  # steps between records
-    stores: NDArray[np.bool_]  # (L,) whether a load stores energy, and so does no work
-    tally: NDArrayInt  # (2,) steps taken, records made
-    clock: Array  # (1,) time of the last step in s
-    power: Array  # (2, L + 2) power dissipated and worked at the last step in W
-    energy: Array  # (2, L + 2) energy dissipated and worked so far in J
-    time: Array  # (T,) in s
-    displacement: Array  # (T, m, 3) in m
-    acceleration: Array  # (T, m, 3) in m/s2
-    section_load: Array  # (T, m, 6) in N and N m
-    imbalance: Array  # (T, g, 6) of the segments in N and N m
-    soil_force: Array  # (T, n, 3) of the soil on the pile in N
-    slip: Array  # (T, D, 2) of the tuned mass dampers along x and y of their carriers in m
-    stored: Array  # (T, L + 4) energies that the state holds in J, see STATE_ENERGIES
-    dissipated: Array  # (T, L + 2) in J
-    worked: Array  # (T, L + 2) in J; see GROUND
-    iterations: NDArray[np.int32]  # (T,)
-    residual: Array  # (T,) largest entry over the load scale
+    every: Count
+    energies: Counts
+    commit: Count
+    at_cuts: Count
+    tally: Counts
+    clock: Numbers
+    power: Numbers2
+    energy: Numbers2
+    now: Numbers2
+    time: Numbers
+    displacement: Numbers3
+    acceleration: Numbers3
+    section_load: Numbers3
+    imbalance: Numbers3
+    soil_force: Numbers3
+    stroke: Numbers3
+    stored: Numbers2
+    dissipated: Numbers2
+    worked: Numbers2
+    iterations: Counts
+    residual: Numbers
 
 
-def make_cuts(system: System, s: ChainArrays, height: Array) -> Cuts:
+def make_cuts(system: System, model: Model, height: Array) -> Cuts:
     """Cuts at heights (m,) in m, from the base to the yaw bearing."""
     chain = system.chain
     body = chain.body_at(height)
     ends = np.append(chain.joint_height, chain.top)[body]
     above = [
-        np.flatnonzero((s.point_body == k) & _is_above(system, s, z))
+        np.flatnonzero((model.point_body == k) & _is_above(system, model, z))
         for k, z in zip(body, height, strict=True)
     ]
     return Cuts(
@@ -110,7 +171,7 @@ def make_cuts(system: System, s: ChainArrays, height: Array) -> Cuts:
 
 
 def make_segments(
-    system: System, s: ChainArrays, cuts: Cuts, ends: Sequence[tuple[float, float]]
+    system: System, model: Model, cuts: Cuts, ends: Sequence[tuple[float, float]]
 ) -> Segments:
     """Segments between pairs of cut heights in m, the lower first."""
     chain = system.chain
@@ -122,7 +183,9 @@ def make_segments(
         bodies.append(inside)
         # A point mass at the yaw bearing lies above the cut there, as loads there do.
         pieces.append(_pieces(system, inside, low_ends, high_ends, with_end=False))
-        points.append(np.flatnonzero(_is_above(system, s, low) & ~_is_above(system, s, high)))
+        points.append(
+            np.flatnonzero(_is_above(system, model, low) & ~_is_above(system, model, high))
+        )
     at = [[int(np.argmin(np.abs(cuts.height - z))) for z in pair] for pair in ends]
     none = np.zeros(0, dtype=np.intp)
     return Segments(
@@ -149,13 +212,13 @@ def make_soil_nodes(loads: Sequence[PointLoad], soil: tuple[PointLoad, ...]) -> 
     return SoilNodes(height, np.concatenate([none, *points]), node.astype(np.intp))
 
 
-def _is_above(system: System, s: ChainArrays, height: float) -> NDArray[np.bool_]:
+def _is_above(system: System, model: Model, height: float) -> NDArray[np.bool_]:
     """(P,) whether each loaded point lies above a cut.
 
     A soil node at the cut belongs below it, whatever the last digit of its height; a load at the
     yaw bearing acts on the assembly above every cut.
     """
-    return (s.point_height > height + 1e-9) | (s.point_height == system.chain.top)
+    return (model.point_height > height + 1e-9) | (model.point_height == system.chain.top)
 
 
 def _pieces(
@@ -174,37 +237,48 @@ def _beginnings(lists: Sequence[NDArrayInt]) -> NDArrayInt:
     return np.cumsum([0, *map(len, lists)], dtype=np.intp)
 
 
+class Kernels(NamedTuple):
+    """Addresses that a recorder needs, see :class:`Recorder`."""
+
+    energies: NDArrayInt
+    commit: int
+    at_cuts: int
+
+
 def make_recorder(
-    s: ChainArrays,
+    model: Model,
     cuts: Cuts,
     segments: Segments,
     soil: SoilNodes,
-    stores: NDArray[np.bool_],
+    kernels: Kernels,
     every: int,
     records: int,
-) -> RecorderArrays:
+) -> Recorder:
     """An empty recorder for a number of records."""
-    m, loads = len(cuts.height), s.loads
-    return RecorderArrays(
+    m, loads = len(cuts.height), len(model.forces)
+    return Recorder(
         cuts=cuts,
         segments=segments,
         soil=soil,
         every=every,
-        stores=stores,
+        energies=kernels.energies,
+        commit=kernels.commit,
+        at_cuts=kernels.at_cuts,
         tally=np.zeros(2, dtype=np.intp),
         clock=np.zeros(1),
         power=np.zeros((2, loads + 2)),
         energy=np.zeros((2, loads + 2)),
+        now=np.zeros((2, loads + 2)),
         time=np.zeros(records),
         displacement=np.zeros((records, m, 3)),
         acceleration=np.zeros((records, m, 3)),
         section_load=np.zeros((records, m, 6)),
         imbalance=np.zeros((records, len(segments.cut), 6)),
         soil_force=np.zeros((records, len(soil.height), 3)),
-        slip=np.zeros((records, len(s.slider_body), 2)),
+        stroke=np.zeros((records, len(model.tmd.body), 2)),
         stored=np.zeros((records, loads + len(STATE_ENERGIES))),
         dissipated=np.zeros((records, loads + 2)),
         worked=np.zeros((records, loads + 2)),
-        iterations=np.zeros(records, dtype=np.int32),
+        iterations=np.zeros(records, dtype=np.intp),
         residual=np.zeros(records),
     )
