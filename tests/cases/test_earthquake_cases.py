@@ -12,7 +12,7 @@ import pytest
 import xarray as xr
 import yaml
 from helpers.earthquakes import shaking
-from offwind_pin.cases.schema.earthquake import Shaking
+from offwind_pin.cases.earthquake import Shaking
 
 import offwind_pin as ow
 from offwind_pin.analysis.foundation.study.state import soil_displacement_reached, soil_springs

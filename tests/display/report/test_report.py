@@ -11,7 +11,7 @@ import pytest
 import xarray as xr
 from helpers.case_results import Results, published, results
 from helpers.earthquakes import shaking
-from offwind_pin.cases.schema.earthquake import Shaking
+from offwind_pin.cases.earthquake import Shaking
 
 import offwind_pin as ow
 from offwind_pin.analysis.drawing_data import sea_in_words
