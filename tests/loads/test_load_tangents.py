@@ -51,8 +51,7 @@ from offwind_pin.loads.tower_top.load_history import TowerTopLoad
 from offwind_pin.loads.wind.history import WindHistory
 from offwind_pin.loads.wind.profiles import ExtremeOperatingGust, PowerLaw
 from offwind_pin.loads.wind.rotor_thrust import Control, RotorThrust
-from offwind_pin.loads.wind.tower_drag import TowerDrag
-from offwind_pin.loads.wind.tower_wind import TowerWind
+from offwind_pin.loads.wind.tower_drag import TowerDrag, TowerWind
 
 TIME, RISE = 2.3, 0.7
 STEP, SIZE = 1e-5, 0.05

@@ -20,7 +20,7 @@ from offwind_pin.dynamics.system import System
 from offwind_pin.loads.earthquake.earthquake import Earthquake
 from offwind_pin.loads.sea.sea import DrySea, Sea
 from offwind_pin.loads.sea.seas import SeaChoice
-from offwind_pin.loads.wind.tower_wind import TowerWind
+from offwind_pin.loads.wind.tower_drag import TowerWind
 from offwind_pin.structure.chain import MOST_ELEMENTS
 
 

@@ -18,8 +18,7 @@ from offwind_pin.loads.wind.profiles import (
     Profile,
     WindSeries,
 )
-from offwind_pin.loads.wind.tower_drag import TowerDrag
-from offwind_pin.loads.wind.tower_wind import TowerWind
+from offwind_pin.loads.wind.tower_drag import TowerDrag, TowerWind
 from offwind_pin.structure.section import outer_diameter
 
 CALM = TowerWind(12.0, 119.0, PowerLaw(0.14), 0.65)
