@@ -12,12 +12,11 @@ import pytest
 import xarray as xr
 import yaml
 from helpers.earthquakes import shaking
-from offwind_pin.cases.earthquake import Shaking
 
 import offwind_pin as ow
 from offwind_pin.analysis.foundation.study.state import soil_displacement_reached, soil_springs
 from offwind_pin.cases.case import load_case
-from offwind_pin.cases.earthquake import PERIODS, earthquake_dataset
+from offwind_pin.cases.earthquake import PERIODS, Shaking, earthquake_dataset
 from offwind_pin.cases.run import run_case
 from offwind_pin.display.figures.earthquake import response_spectrum_plot
 from offwind_pin.signal.response_spectrum import response_spectrum

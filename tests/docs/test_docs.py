@@ -26,7 +26,7 @@ from offwind_pin.loads.soil.curves.shaft_and_tip import (
     torsional_curves,
     vertical_curves,
 )
-from offwind_pin.loads.soil.soil_profile import Ground
+from offwind_pin.loads.soil.soil_profile import PileNodes
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -93,12 +93,12 @@ def test_layers_of_the_docs(written: Path) -> None:
     path.write_text(yaml.safe_dump(data))
     springs = ow.load_turbine(path).soil.distributed_springs
     assert springs is not None
-    ground = Ground(np.linspace(0, 36, springs.nodes), np.full(springs.nodes, 6.0), 36.0)
+    ground = PileNodes(np.linspace(0, 36, springs.nodes), np.full(springs.nodes, 6.0), 36.0)
     lateral = lateral_curves(springs.curve, ground)
     assert np.all(lateral.ultimate[1:] > 0)
     rocking = rocking_curves(springs.curve, ground)
     assert rocking is not None
-    assert np.count_nonzero(rocking.curves.ultimate) == 19
+    assert np.count_nonzero(rocking[1].curves.ultimate) == 19
     for curve in (base_shear_curve, base_moment_curve):
         assert curve(springs.curve, ground) is not None
     for along in (vertical_curves, torsional_curves, toe_bearing_curve):

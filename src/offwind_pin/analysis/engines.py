@@ -7,7 +7,6 @@ generalised-alpha are the same.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, get_args
 
@@ -69,10 +68,10 @@ def resting_chain(
     if engine == "pinocchio":
         from offwind_pin.dynamics.reference.dense_chain import DenseChain
 
-        return DenseChain(system.equations(loads, math.inf))
+        return DenseChain(system.equations(loads, None))
     from offwind_pin.dynamics.compiled.chain import CompiledChain
 
-    return CompiledChain(system, loads, math.inf)
+    return CompiledChain(system, loads)
 
 
 def pencil(system: System, about: StaticResult, engine: Engine) -> DensePencil:
@@ -85,7 +84,7 @@ def pencil(system: System, about: StaticResult, engine: Engine) -> DensePencil:
     from offwind_pin.dynamics.reference.dense_pencil import DensePencil
 
     check_engine(engine)
-    return DensePencil(system.equations(about.acting_loads(), math.inf, about.memory), about.q)
+    return DensePencil(system.equations(about.acting_loads(), None, about.memory), about.q)
 
 
 def moving_chain(

@@ -11,13 +11,12 @@ import pytest
 import xarray as xr
 from helpers.case_results import Results, published, results
 from helpers.earthquakes import shaking
-from offwind_pin.cases.earthquake import Shaking
 
 import offwind_pin as ow
 from offwind_pin.analysis.drawing_data import sea_in_words
 from offwind_pin.analysis.sea_data import waves_dataset
 from offwind_pin.base.mode_labels import is_mode, mode_name
-from offwind_pin.cases.earthquake import earthquake_dataset
+from offwind_pin.cases.earthquake import Shaking, earthquake_dataset
 from offwind_pin.cases.identification import summarise_identified
 from offwind_pin.cases.tower_top import synthetic_dataset
 from offwind_pin.display.report.case_report import SECTIONS, tables

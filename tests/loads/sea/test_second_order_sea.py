@@ -101,7 +101,7 @@ def test_extrapolation_continues_the_first_order_alone() -> None:
 
     def motion(kind: Any, height: float) -> Any:
         surface = WaterSurface(kind.waves(DEPTH, GRAVITY), 0.0, "extrapolation")
-        return WaterSeries(np.array([height]), surface).rows(time, np.ones(2))[:, 1:]
+        return WaterSeries(np.array([height]), surface).time_inputs(time, np.ones(2))[:, 1:]
 
     at_crest = motion(whole, above)[0] - motion(whole, 0.0)[0]
     assert at_crest == pytest.approx(motion(first, above)[0] - motion(first, 0.0)[0], abs=1e-9)

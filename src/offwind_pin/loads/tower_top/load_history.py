@@ -11,7 +11,7 @@ import numpy as np
 from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError
 from offwind_pin.base.number_tables import read_time_columns
-from offwind_pin.loads.point_load import KernelLoad, force_kernel, no_tangents
+from offwind_pin.loads.point_load import Channel, KernelLoad, force_kernel, no_tangents
 
 COMPONENTS = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
 LARGEST_LOAD = 1e10
@@ -58,10 +58,29 @@ class LoadHistory:
         share = np.clip((np.asarray(time) - start) / (end - start), 0.0, 1.0)[..., None]
         return (1 - share) * self.load[upper - 1] + share * self.load[upper]
 
+    def acting(self, yaw_bearing: float, start: float, end: float) -> TowerTopLoad:
+        """The load at a yaw bearing (m), with its mean from a start to an end (s).
+
+        Raises
+        ------
+        InputError : samples that do not reach from 0 to the end
+        """
+        if self.time[0] > 0 or self.time[-1] < end - 1e-9:
+            raise InputError(
+                f"load history {self.origin!r}, time",
+                f"{self.time[0]} to {self.time[-1]} s",
+                f"samples from 0 to at least {end} s",
+                "Shorten the simulation or extend the file.",
+            )
+        return TowerTopLoad(yaw_bearing, self, self.mean(start, end))
+
 
 @force_kernel
-def _forces(motion: Array, constants: Array, row: Array, memory: Array, force: Array) -> float:
-    force[0, :] = row
+def _forces(
+    motion: Array, constants: Array, time_inputs: Array, memory: Array, force: Array
+) -> float:
+    for j in range(6):
+        force[0, j] = time_inputs[j]
     return 0.0
 
 
@@ -89,9 +108,24 @@ class TowerTopLoad(KernelLoad):
     def constants(self) -> Array:
         return np.zeros((1, 0))
 
-    def rows(self, time: Array, rise: Array) -> Array:
+    def time_inputs(self, time: Array, ramp_factor: Array) -> Array:
         """(t, 6) applied load."""
-        return self.mean + rise[:, None] * (self.history.at(time) - self.mean)
+        return self.mean + ramp_factor[:, None] * (self.history.at(time) - self.mean)
+
+    @property
+    def surrogate(self) -> str | None:
+        return self.history.surrogate
+
+    @property
+    def channels(self) -> tuple[Channel, ...]:
+        about = "load applied at the yaw bearing"
+        return (Channel("tower_top_load", ("component",), "N for F, N m for M", about),)
+
+    def outputs(self, time: Array, ramp_factor: Array) -> dict[str, Array]:
+        return {"tower_top_load": self.time_inputs(time, ramp_factor)}
+
+    def attributes(self) -> dict[str, str]:
+        return {"tower_top_load_origin": self.history.origin}
 
 
 def constant_load(yaw_bearing: float, load: Array) -> TowerTopLoad:

@@ -79,13 +79,13 @@ class TowerDrag(KernelLoad):
         drag = 0.5 * self.wind.air_density * self.wind.drag_coefficient * area
         return np.column_stack([np.zeros(len(area)), drag, self.strips.ends])
 
-    def rows(self, time: Array, rise: Array) -> Array:
+    def time_inputs(self, time: Array, ramp_factor: Array) -> Array:
         """(t, 1 + 6 n) a surface that is not reached, velocity of the air, no acceleration."""
         wind = self.wind
         ratio = wind.profile.ratio(self.height, wind.reference_height)
         speed = np.tile(wind.speed * ratio, (len(time), 1))
         if wind.gust is not None:
-            speed += (rise * wind.gust.at(time))[:, None]
+            speed += (ramp_factor * wind.gust.at(time))[:, None]
         angle = np.radians(wind.direction_deg)
         towards = np.array([np.cos(angle), np.sin(angle), 0.0])
         rows = np.zeros((len(time), 1 + 6 * len(self.height)))
