@@ -73,13 +73,8 @@ LOCAL = {"by_a", "by_v", "rnea"}
 
 @pytest.mark.parametrize("page", sorted((DOCS / "theory").glob("*.md")), ids=lambda p: p.stem)
 def test_functions_beside_equations(page: Path) -> None:
-    """A page of the theory has equations, and every function that it names is in the package."""
-    text = page.read_text()
-    assert text.count("$$") >= 4
-    assert text.count("$$") % 2 == 0
-    names = re.findall(r"`([A-Za-z_][\w.]*)`", text)
-    assert len(names) >= 3
-    assert unknown_names(text, _known() | LOCAL) == []
+    """Every function that a page of the theory names is in the package."""
+    assert unknown_names(page.read_text(), _known() | LOCAL) == []
 
 
 def test_the_search_for_names_can_fail() -> None:
