@@ -100,7 +100,9 @@ def test_section_loads_in_motion(in_waves: ow.System, any_system: ow.System) -> 
     time = np.array([3.0])
     chain = CompiledChain(in_waves)
     height = np.union1d(in_waves.chain.boundary, in_waves.chain.joint_height)
-    record = chain.record(chain.sections(height), chain.time_inputs(time)[0], state.q, state.v, state.a)
+    record = chain.record(
+        chain.sections(height), chain.time_inputs(time)[0], state.q, state.v, state.a
+    )
     found = section_loads(in_waves.equations(), time[0], state.q, state.v, state.a, height)
     expected = record.section_load[0]
     for part in (slice(0, 3), slice(3, 6)):
