@@ -61,6 +61,11 @@ def evaluated(chain: CompiledChain, seed: int) -> tuple[Array, Array]:
     return residual, chain.correction(residual)
 
 
+def pickled(chain: CompiledChain) -> CompiledChain:
+    twin: CompiledChain = pickle.loads(pickle.dumps(chain))
+    return twin
+
+
 def assert_same(one: MotionState, other: MotionState) -> None:
     for a, b in zip(one, other, strict=True):
         assert np.array_equal(a, b)
@@ -71,10 +76,8 @@ def test_a_copy_goes_on_alike(system: ow.System, way: str) -> None:
     """To the bit, from the middle of a motion; what it does does not touch the original."""
     chain = chain_of(system)
     middle = stepped(chain, begun(chain), 0.5)
-    if way == "pickle":
-        twin = pickle.loads(pickle.dumps(chain))
-    else:
-        twin = getattr(copy, way)(chain)
+    ways = {"copy": copy.copy, "deepcopy": copy.deepcopy, "pickle": pickled}
+    twin = ways[way](chain)
     before = chain.state.copy()
     assert np.array_equal(twin.memory, before.memory)
     assert np.any(before.memory)

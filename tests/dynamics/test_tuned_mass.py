@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 import offwind_pin as ow
 from offwind_pin.analysis.integrators import GeneralizedAlpha
-from offwind_pin.cases.summary import summarise_dampers
+from offwind_pin.cases.tree_summary import summarise_dampers
 from offwind_pin.cases.turbine_overview import overview
 from offwind_pin.definitions.element import Element
 from offwind_pin.definitions.soil.springs import Soil

@@ -23,10 +23,10 @@ _MATRIX: Any = types.float64[:, ::1]
 _FACTORS = (types.float64, types.float64)
 
 multiply_kernel = exchangeable(
-    types.void(MODEL, DATA, FACTORISATION, *_FACTORS, types.boolean, _MATRIX, _MATRIX), nogil=True
+    types.void(MODEL, DATA, FACTORISATION, *_FACTORS, types.intp, _MATRIX, _MATRIX), nogil=True
 )
 tmd_multiply_kernel = exchangeable(
-    types.void(MODEL, DATA, FACTORISATION, *_FACTORS, types.boolean, ROW, ROW)
+    types.void(MODEL, DATA, FACTORISATION, *_FACTORS, types.intp, ROW, ROW)
 )
 """Decorator for ``kernel(model, data, factors, dv_dq, da_dq, transposed, vector, product)``: what
 tuned mass dampers add; the twists of their carriers are in the factors, and become wrenches."""
@@ -41,11 +41,11 @@ def multiply(
     factors: Factorisation,
     dv_dq: float,
     da_dq: float,
-    transposed: bool,
+    transposed: int,
     vectors: Array,
     products: Array,
 ) -> None:
-    """Set products (n, nv) of the matrix, or of its transpose, with vectors (n, nv).
+    """Set products (n, nv) of the matrix, or of its transpose (1, not 0), with vectors (n, nv).
 
     factors : as :func:`assemble` set them for the same state and factors
     """
@@ -77,7 +77,7 @@ def multiply(
         for k in range(last, -1, -1):
             for i in range(6):
                 for j in range(6):
-                    entry = matrices[k, j, i] if transposed else matrices[k, i, j]
+                    entry = matrices[k, j, i] if transposed != 0 else matrices[k, i, j]
                     wrench[i] += entry * twist[k, j]
             for d in range(len(tmd_body)):
                 if tmd_body[d] == k:
@@ -90,12 +90,12 @@ def multiply(
                 turn_of_axis(axes, held, dof, k, turning)
                 for j in range(6):
                     value += axes[dof, j] * wrench[j]
-                    if transposed:
+                    if transposed != 0:
                         wrench[j] -= turning[j] * x[dof]
                     else:
                         value -= turning[j] * below[dof, j]
                 y[dof] = value
         for i in range(roots):
             for j in range(roots):
-                m, o = (j, i) if transposed else (i, j)
+                m, o = (j, i) if transposed != 0 else (i, j)
                 y[i] += (data.root_stiffness[m, o] + dv_dq * data.root_damping[m, o]) * x[j]

@@ -36,7 +36,7 @@ class CompiledPencil:
     def symmetric_stiffness_times(self, vectors: Array) -> Array:
         """(nv, n) of the same shape, by the symmetric part of the stiffness."""
         straight = self._times(vectors, 0.0, 0.0)
-        return (straight + self._times(vectors, 0.0, 0.0, transposed=True)) / 2
+        return (straight + self._times(vectors, 0.0, 0.0, transposed=1)) / 2
 
     def mass_times(self, vectors: Array) -> Array:
         """(nv, n) of the same shape."""
@@ -83,9 +83,7 @@ class CompiledPencil:
         self._chain.factorise(*arguments)
         self._shift = shift
 
-    def _times(
-        self, vectors: Array, dv_dq: float, da_dq: float, *, transposed: bool = False
-    ) -> Array:
+    def _times(self, vectors: Array, dv_dq: float, da_dq: float, *, transposed: int = 0) -> Array:
         chain, key = self._chain, (dv_dq, da_dq)
         if key not in self._factors:
             self._factors[key] = Factorisation.of(chain.model)

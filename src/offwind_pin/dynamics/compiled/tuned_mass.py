@@ -11,6 +11,7 @@ import numpy as np
 
 from offwind_pin.base.definition import Array
 from offwind_pin.base.kernels import inlined, inner
+from offwind_pin.dynamics.compiled.matrix_products import tmd_multiply_kernel
 from offwind_pin.dynamics.compiled.model import (
     NO_JOINT,
     Data,
@@ -19,7 +20,6 @@ from offwind_pin.dynamics.compiled.model import (
     State,
     Vector,
 )
-from offwind_pin.dynamics.compiled.matrix_products import tmd_multiply_kernel
 from offwind_pin.dynamics.compiled.newton_matrix import (
     tmd_after_kernel,
     tmd_before_kernel,
@@ -209,7 +209,7 @@ def tmd_multiply(
     factors: Factorisation,
     dv_dq: float,
     da_dq: float,
-    transposed: bool,
+    transposed: int,
     vector: Array,
     product: Array,
 ) -> None:
@@ -232,7 +232,7 @@ def tmd_multiply(
         for i in range(6):
             wrench[d, i] = 0.0
             for j in range(6):
-                entry = matrices[0, j, i] if transposed else matrices[0, i, j]
+                entry = matrices[0, j, i] if transposed != 0 else matrices[0, i, j]
                 wrench[d, i] += entry * twist[j]
         force = row_of(wrench, d)
         for i in range(2):
@@ -243,7 +243,7 @@ def tmd_multiply(
             turned = cross(need, axis)
             value = (model.stiffness[dof] + dv_dq * model.damping[dof]) * vector[dof]
             value += dot(axis, force)
-            if transposed:
+            if transposed != 0:
                 for j in range(3):
                     wrench[d, 3 + j] -= turned[j] * vector[dof]
             else:
