@@ -4,10 +4,11 @@ VENV := .venv
 BIN := $(VENV)/bin
 INSTALLED := $(VENV)/installed
 DOCS_INSTALLED := $(VENV)/docs-installed
+PARALLEL := --numprocesses auto --maxprocesses 4 --dist loadfile
 export OMP_NUM_THREADS := 1
 export OPENBLAS_NUM_THREADS := 1
 
-.PHONY: help install demo test check lint format types bench peers urdf docs lock clean
+.PHONY: help install demo test coverage dist soak check lint format types bench peers urdf docs lock clean
 
 help: ## List the targets
 	@grep -E '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed 's/:.*## /\t/' | expand -t 12
@@ -27,7 +28,27 @@ demo: $(INSTALLED) ## Solve OC6 LC 5.1, write its report and the second mode's a
 	@echo "Open out/oc6-lc5.1/report.html and out/oc6-lc5.1/fa2.html in a browser."
 
 test: $(INSTALLED) ## Run the whole test suite
-	$(BIN)/python -m pytest --numprocesses auto --maxprocesses 4 --dist loadfile
+	$(BIN)/python -m pytest $(PARALLEL)
+
+coverage: $(INSTALLED) ## Run the whole test suite and print its branch coverage
+	rm -rf out/coverage
+	mkdir -p out/coverage
+	$(BIN)/coverage run -m pytest $(PARALLEL)
+	$(BIN)/coverage combine --quiet
+	$(BIN)/coverage report --skip-covered
+	@echo "Functions that Numba compiles are not counted: coverage does not see them run."
+
+dist: $(INSTALLED) ## Build wheel and sdist, inspect them, and run the wheel in an environment of its own
+	$(BIN)/python .ci/distributions.py
+
+# Every round draws other examples and other moments; a failure is repeated with the seed of its round.
+ROUNDS ?= 20
+soak: $(INSTALLED) ## Repeat the random tests with other seeds; ROUNDS=20
+	for seed in $$(seq 1001 $$((1000 + $(ROUNDS)))); do \
+		echo "seed $$seed"; \
+		$(BIN)/python -m pytest $(PARALLEL) -m "seeded or hypothesis" \
+			--hypothesis-profile soak --hypothesis-seed $$seed --campaign-seed $$seed || exit 1; \
+	done
 
 check: lint types ## Lint, format and type checks
 

@@ -13,8 +13,6 @@ from offwind_pin.cases.case import (
     TransientAnalysis,
     load_case,
 )
-from offwind_pin.cases.schema.sea import IrregularSea
-from offwind_pin.cases.schema.tower_top import SyntheticTowerTopLoad
 from offwind_pin.definitions.turbine import RotorNacelleRNA
 
 NAME = "oc6-lc5.1"
@@ -51,25 +49,21 @@ def operational_case(
 
     Waves and wind repeat after the duration, or 600 s where that is longer.
     """
-    case, _ = load_case(NAME)
-    turbine = ow.load_turbine(case.turbine)
+    case = load_case(NAME)
+    turbine = case.turbine
     sea, wind, analysis = case.sea, case.tower_top_load, case.analysis
     if not (
-        isinstance(sea, IrregularSea)
-        and isinstance(wind, SyntheticTowerTopLoad)
+        isinstance(sea, ow.IrregularWaves)
+        and isinstance(wind, ow.SyntheticWind)
         and isinstance(analysis, TransientAnalysis)
         and isinstance(turbine.rna, RotorNacelleRNA)
     ):
         raise TypeError(f"{NAME} is no longer a case in waves and synthetic wind")
     whole = analysis.duration if duration is None else duration
     ramp = min(analysis.ramp, whole / 4)
-    period = max(whole, 600.0)
-    waves = ow.IrregularWaves(
-        sea.significant_height, sea.peak_period, seed=seed, repeat_period=period
+    waves = sea.completed(seed, whole)
+    load = wind.completed(seed).generate(
+        turbine.rna, duration=whole, repeat_period=max(whole - ramp, 540.0)
     )
-    generator = ow.SyntheticWind(
-        wind.wind_speed, wind.blade_passing_frequency, wind.turbulence_intensity, seed=seed
-    )
-    load = generator.generate(turbine.rna, duration=whole, repeat_period=max(whole - ramp, 540.0))
     system = ow.build(turbine, case.foundation, waves, elements=elements)
     return OperationalCase(system, load, whole, ramp, analysis.dt, analysis.output_dt)

@@ -184,8 +184,8 @@ def repeat(case: OperationalCase, count: int) -> None:
 
 def soil_loads(motion: Motion) -> Indices:
     """Places of the soil's loads among all; none where a restraint of the root is the soil."""
-    names = [load.name for load in motion.chain.loads]
-    return np.array([i for i, name in enumerate(names) if name.startswith("soil")], dtype=np.intp)
+    moving = [load.moves_with_ground for load in motion.chain.loads]
+    return np.flatnonzero(moving)
 
 
 def tangents(motion: Motion, count: int) -> None:

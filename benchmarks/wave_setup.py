@@ -17,7 +17,7 @@ import numpy as np
 from operational_case import NAME, OperationalCase, operational_case
 
 import offwind_pin as ow
-from offwind_pin.loads.sea.hydrodynamic_loads import Waters
+from offwind_pin.loads.sea.hydrodynamic_loads import HydrodynamicModel
 
 SETUP_ALLOWED = 0.05
 BLOCK = 1000
@@ -62,13 +62,13 @@ def row(case: OperationalCase, stretching: str, whole: float, repeats: int) -> d
     long = replace(sea, repeat_period=whole, stretching=stretching)  # type: ignore[arg-type]
     turbine = case.system.turbine
     running = replace(case, system=replace(case.system, sea=long))
-    waters = Waters.of(turbine, long)
+    waters = HydrodynamicModel.of(turbine, long)
     steps = case.duration / case.dt
     time = 100.0 + case.dt * np.arange(BLOCK, dtype=float)
     rise = np.ones(BLOCK)
     runs: dict[str, Callable[[int], object]] = {
-        "setup": lambda count: [Waters.of(turbine, long) for _ in range(count)],
-        "rows": lambda count: [waters.water.rows(time, rise) for _ in range(count)],
+        "setup": lambda count: [HydrodynamicModel.of(turbine, long) for _ in range(count)],
+        "rows": lambda count: [waters.water.time_inputs(time, rise) for _ in range(count)],
         "run": lambda count: [running.simulate() for _ in range(count)],
     }
     taken = measuring.rounds(runs, repeats)
@@ -92,7 +92,7 @@ def row(case: OperationalCase, stretching: str, whole: float, repeats: int) -> d
     }
 
 
-def table_bytes(waters: Waters) -> int:
+def table_bytes(waters: HydrodynamicModel) -> int:
     """Size of the arrays that the kinematics hold, those of surface and waves included."""
     seen: dict[int, int] = {}
 

@@ -26,8 +26,6 @@ from offwind_pin.cases.case import (
     TransientAnalysis,
     load_case,
 )
-from offwind_pin.cases.schema.sea import IrregularSea
-from offwind_pin.cases.schema.tower_top import SyntheticTowerTopLoad
 from offwind_pin.definitions.soil.springs import DistributedSprings, Hysteresis
 from offwind_pin.definitions.turbine import RotorNacelleRNA
 from offwind_pin.display.figures.style import (
@@ -135,9 +133,8 @@ def main(
     By model, each of ``QUANTITIES`` by seed, and ``FA1_hz``, ``FA2_hz``, ``FA1_damping``,
     ``FA2_damping`` of small motions about the state under the mean load
     """
-    case, _ = load_case("oc6-lc5.1")
-    turbine = ow.load_turbine(case.turbine)
-    numbers = {model.name: study(model, turbine, case, seeds, duration) for model in MODELS}
+    case = load_case("oc6-lc5.1")
+    numbers = {model.name: study(model, case.turbine, case, seeds, duration) for model in MODELS}
     if out is not None:
         out.mkdir(parents=True, exist_ok=True)
         draw(numbers).savefig(out / "soil_damping.svg", metadata={"Date": None})
@@ -184,20 +181,12 @@ def environment(
 ) -> tuple[ow.IrregularWaves, ow.LoadHistory]:
     """Waves and tower-top load of a case, drawn anew."""
     sea, load = case.sea, case.tower_top_load
-    if not isinstance(sea, IrregularSea) or not isinstance(load, SyntheticTowerTopLoad):
+    if not isinstance(sea, ow.IrregularWaves) or not isinstance(load, ow.SyntheticWind):
         raise TypeError("the case has no irregular waves or no synthetic wind")
     if not isinstance(turbine.rna, RotorNacelleRNA):
         raise TypeError("the turbine has no rotor")
-    waves = ow.IrregularWaves(
-        sea.significant_height,
-        sea.peak_period,
-        seed=seed,
-        repeat_period=max(analysis.duration, 600.0),
-    )
-    wind = ow.SyntheticWind(
-        load.wind_speed, load.blade_passing_frequency, load.turbulence_intensity, seed=seed
-    )
-    history = wind.generate(
+    waves = sea.completed(seed, analysis.duration)
+    history = load.completed(seed).generate(
         turbine.rna,
         duration=analysis.duration,
         repeat_period=analysis.duration - analysis.ramp,

@@ -1,11 +1,49 @@
-"""The shipped turbine and its systems, made once."""
+"""The shipped turbine and its systems, made once; random tests draw from seeds."""
 
+import logging
+import os
+from collections.abc import Iterator
 from typing import Any
 
 import pytest
+from hypothesis import settings
 
 import offwind_pin as ow
 from offwind_pin import cli
+
+# Results must not depend on the user's terminal, display or Matplotlib settings. Compiled kernels
+# stay in the user's cache.
+_PERSONAL = ("BROWSER", "DISPLAY", "WAYLAND_DISPLAY", "COLUMNS", "LINES", "CLICOLOR_FORCE")
+_COLOUR = ("FORCE_COLOR", "NO_COLOR", "PY_COLORS", "GITHUB_ACTIONS")
+for _name in (*_PERSONAL, *_COLOUR):
+    os.environ.pop(_name, None)
+os.environ |= {"MATPLOTLIBRC": os.devnull, "MPLBACKEND": "agg"}
+
+# The same examples on every machine; `make soak` draws others, from its own seeds.
+settings.register_profile("repeatable", derandomize=True, deadline=None, database=None)
+settings.register_profile("soak", deadline=None, database=None, print_blob=True)
+settings.load_profile("repeatable")
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption(
+        "--campaign-seed", type=int, default=1, help="of the tests marked seeded (default: 1)"
+    )
+
+
+@pytest.fixture(scope="session")
+def campaign_seed(pytestconfig: pytest.Config) -> int:
+    """From which a test marked ``seeded`` draws."""
+    return int(pytestconfig.getoption("--campaign-seed"))
+
+
+@pytest.fixture(autouse=True)
+def _log_level() -> Iterator[None]:
+    """Commands set it for their process; a later test must not depend on whether one ran."""
+    logger = logging.getLogger("offwind_pin")
+    before = logger.level
+    yield
+    logger.setLevel(before)
 
 
 @pytest.fixture(scope="session")

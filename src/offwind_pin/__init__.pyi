@@ -15,7 +15,13 @@ from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.dynamics.system import System
 from offwind_pin.formats.urdf_folder import export_urdf
 from offwind_pin.loads.earthquake.ground_motion import GroundMotion
-from offwind_pin.loads.point_load import PointForces, PointLoad, PointMotion, PointTangents
+from offwind_pin.loads.point_load import (
+    Channel,
+    PointForces,
+    PointLoad,
+    PointMotion,
+    PointTangents,
+)
 from offwind_pin.loads.sea.irregular_waves import IrregularWaves
 from offwind_pin.loads.sea.sea import RegularWaves, StillWater
 from offwind_pin.loads.sea.waves.spectra import JonswapSpectrum
@@ -78,6 +84,7 @@ __version__: str
 
 __all__ = [
     "AdaptiveStep",
+    "Channel",
     "DampedAbsorber",
     "FixedStep",
     "GeneralizedAlpha",

@@ -8,7 +8,7 @@ from offwind_pin.loads.wind.rotor_effective_wind import RotorWind
 from offwind_pin.loads.wind.rotor_thrust import RotorThrust
 from offwind_pin.loads.wind.synthetic_thrust import SyntheticWind
 from offwind_pin.loads.wind.thrust_table import thrust_curve
-from offwind_pin.loads.wind.tower_drag import TowerWind
+from offwind_pin.loads.wind.tower_wind import TowerWind
 
 __all__ = [
     "ExtremeOperatingGust",

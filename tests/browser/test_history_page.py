@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
-from helpers.pages import Visit, changed_share, drawn_share, picture, wait
+from helpers.pages import Visit, changed_share, drawn_share, picture, time_after_frames, wait
 from numpy.testing import assert_allclose
 from selenium import webdriver
 from selenium.webdriver.common.by import By
@@ -105,9 +105,7 @@ def test_plays_by_itself_until_paused(driver: webdriver.Chrome, page: Path) -> N
     driver.find_element(By.ID, "pause").click()
     stopped = driver.execute_script("return player.now")
     one = picture(driver)
-    assert driver.execute_async_script(
-        "const done = arguments[arguments.length - 1]; setTimeout(() => done(player.now), 400)"
-    ) == pytest.approx(stopped)
+    assert time_after_frames(driver) == stopped
     at(driver, (stopped + 4.0) % DURATION)  # half a wave later
     assert changed_share(one, picture(driver)) > 0.01
     at(driver, stopped)

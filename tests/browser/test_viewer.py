@@ -14,11 +14,20 @@ from urllib.parse import urlsplit
 import numpy as np
 import pytest
 import xarray as xr
-from helpers.pages import PATIENCE, Visit, changed_share, drawn_share, picture, wait
+from helpers.pages import (
+    PATIENCE,
+    Visit,
+    changed_share,
+    drawn_share,
+    picture,
+    time_after_frames,
+    wait,
+)
 from numpy.testing import assert_allclose
 from scipy.spatial.transform import Rotation
 from selenium import webdriver
 from selenium.webdriver.common.by import By
+from selenium.webdriver.support.ui import WebDriverWait
 
 import offwind_pin as ow
 from offwind_pin.analysis.drawing_data import modes_dataset
@@ -178,15 +187,13 @@ class TestModes:
         pause = driver.find_element(By.ID, "pause")
         pause.click()
         before = rings(driver)
-        assert driver.execute_async_script(
-            "const done = arguments[arguments.length - 1], now = player.now;"
-            "setTimeout(() => done(player.now === now), 400)"
-        )
+        now = driver.execute_script("return player.now")
+        assert time_after_frames(driver) == now
         assert_allclose(rings(driver), before)
         pause.click()
-        now = driver.execute_script("return player.now")
-        wait(driver, f"return player.now > {now} + 0.2")
-        assert np.abs(rings(driver) - before).max() > 1e-3
+        WebDriverWait(driver, PATIENCE).until(
+            lambda chrome: np.abs(rings(chrome) - before).max() > 1e-3
+        )
 
     def test_stripes_show_the_turning(
         self, driver: webdriver.Chrome, page: Path, shown: Shapes

@@ -10,7 +10,7 @@ from pathlib import Path
 from urllib.parse import urlsplit
 
 import pytest
-from helpers.pages import PATIENCE, Visit, changed_share, drawn_share, picture, wait
+from helpers.pages import PATIENCE, Visit, changed_share, drawn_share, picture, wait_for_change
 from selenium import webdriver
 
 import offwind_pin as ow
@@ -62,8 +62,7 @@ def check_moving(driver: webdriver.Chrome, url: str) -> None:
     driver.execute_script("player.show(1.1)")
     assert changed_share(first, picture(driver)) > 1e-3
     driver.execute_script("player.playing = true")
-    now = driver.execute_script("return player.now")
-    wait(driver, f"return player.now > {now} + 0.2")
+    wait_for_change(driver)
     visit.collect()
     assert visit.errors == []
     assert visit.places() <= {"http:127.0.0.1", "data:", "blob:"}

@@ -16,9 +16,8 @@ from helpers.earthquakes import shaking
 import offwind_pin as ow
 from offwind_pin.analysis.foundation.study.state import soil_displacement_reached, soil_springs
 from offwind_pin.cases.case import load_case
-from offwind_pin.cases.earthquake import PERIODS, earthquake_dataset
+from offwind_pin.cases.earthquake import PERIODS, Shaking, earthquake_dataset
 from offwind_pin.cases.run import run_case
-from offwind_pin.cases.schema.earthquake import Shaking
 from offwind_pin.display.figures.earthquake import response_spectrum_plot
 from offwind_pin.signal.response_spectrum import response_spectrum
 
@@ -118,9 +117,9 @@ def test_at2_files(folder: Path) -> None:
     values = shaking(12.0, 0.02).acceleration[:, 0] / 9.80665
     head = f"A\nB\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS= {len(values)}, DT= .0200 SEC\n"
     (folder / "a.AT2").write_text(head + "\n".join(f"{v:.9e}" for v in values))
-    earthquake = load_case(case(folder, {"at2": {"y": "a.AT2"}, "scale": 2.0}))[0].earthquake
+    earthquake = load_case(case(folder, {"at2": {"y": "a.AT2"}, "scale": 2.0})).earthquake
     assert earthquake is not None
-    motion, cautions = earthquake.ground_motion(folder)
+    motion, cautions = earthquake.ground_motion()
     assert np.abs(motion.acceleration).max(axis=0) == pytest.approx([0, 6.0, 0], rel=1e-6)
     assert motion.time[-1] == pytest.approx(12.0)
     assert cautions == []

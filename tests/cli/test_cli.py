@@ -158,14 +158,14 @@ def test_failed_solve_keeps_what_there_is(
     offwind: Any, short_case: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Exit status 3; time, step and joint are told; the histories so far are on disk."""
-    honest = MorisonForce.rows
+    honest = MorisonForce.time_inputs
 
-    def failing(self: MorisonForce, time: Array, rise: Array) -> Array:
+    def failing(self: MorisonForce, time: Array, ramp_factor: Array) -> Array:
         """The water's numbers, not a number from 10 s on, up to rounding of the time."""
         spoiled = np.where(time > 9.999, np.nan, 0.0)
-        return honest(self, time, rise) + spoiled[:, None]
+        return honest(self, time, ramp_factor) + spoiled[:, None]
 
-    monkeypatch.setattr(MorisonForce, "rows", failing)
+    monkeypatch.setattr(MorisonForce, "time_inputs", failing)
     out = tmp_path / "out"
     code, _, err = offwind("run", str(short_case), "--out", str(out))
     assert code == 3

@@ -102,18 +102,6 @@ def test_sea_that_is_none(oc6: ow.Turbine, sea: Any) -> None:
 
 
 @pytest.mark.parametrize(
-    "change",
-    [{"repeat_period": 1.0}, {"seed": -1}, {"seed": 1.5}, {"peak_period": 0.0}],
-    ids=str,
-)
-def test_waves_that_cannot_be(change: dict[str, Any]) -> None:
-    """A sea without components, or without a whole seed, is refused."""
-    settings = {"significant_height": 2.0, "peak_period": 10.0, "seed": 1, "repeat_period": 600.0}
-    with pytest.raises(ow.InputError, match="waves"):
-        ow.IrregularWaves(**(settings | change))
-
-
-@pytest.mark.parametrize(
     ("time", "load"),
     [
         ([0.0, 1.0], np.zeros((2, 5))),

@@ -8,7 +8,7 @@ import pytest
 import offwind_pin as ow
 from offwind_pin.definitions.hydrodynamics import Hydrodynamics, coefficient_at
 from offwind_pin.loads.sea.forces.keulegan_carpenter import keulegan_carpenter
-from offwind_pin.loads.sea.hydrodynamic_loads import Waters
+from offwind_pin.loads.sea.hydrodynamic_loads import HydrodynamicModel
 
 BASE: dict[str, Any] = {"added_mass_coefficient": 1.0, "drag_coefficient": 1.0}
 
@@ -84,9 +84,11 @@ def test_strips_take_the_coefficient_of_their_number(oc6: ow.Turbine) -> None:
         added_mass_coefficient={"z_m": [-30, 0], "value": [0.0, 3.0]},
     )
     turbine = oc6.model_copy(update={"hydrodynamics": table})
-    still = Waters.of(turbine, ow.StillWater())
+    still = HydrodynamicModel.of(turbine, ow.StillWater())
     assert np.all(still.drag == 0)
-    waters = Waters.of(turbine, ow.IrregularWaves(6.0, 10.0, seed=1, repeat_period=600.0))
+    waters = HydrodynamicModel.of(
+        turbine, ow.IrregularWaves(6.0, 10.0, seed=1, repeat_period=600.0)
+    )
     assert np.all(np.diff(waters.drag) > 0)
     assert waters.added_mass == pytest.approx(3 * (1 + waters.strips.height / 30), rel=1e-12)
     # in deep water orbits are as high as the waves: 2 pi sqrt(2) Hs / 4 over 9 m, and more with the

@@ -26,7 +26,7 @@ from offwind_pin.loads.soil.curves.shaft_and_tip import (
     torsional_curves,
     vertical_curves,
 )
-from offwind_pin.loads.soil.soil_profile import Ground
+from offwind_pin.loads.soil.soil_profile import PileNodes
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -93,12 +93,12 @@ def test_layers_of_the_docs(written: Path) -> None:
     path.write_text(yaml.safe_dump(data))
     springs = ow.load_turbine(path).soil.distributed_springs
     assert springs is not None
-    ground = Ground(np.linspace(0, 36, springs.nodes), np.full(springs.nodes, 6.0), 36.0)
+    ground = PileNodes(np.linspace(0, 36, springs.nodes), np.full(springs.nodes, 6.0), 36.0)
     lateral = lateral_curves(springs.curve, ground)
     assert np.all(lateral.ultimate[1:] > 0)
     rocking = rocking_curves(springs.curve, ground)
     assert rocking is not None
-    assert np.count_nonzero(rocking.curves.ultimate) == 19
+    assert np.count_nonzero(rocking[1].curves.ultimate) == 19
     for curve in (base_shear_curve, base_moment_curve):
         assert curve(springs.curve, ground) is not None
     for along in (vertical_curves, torsional_curves, toe_bearing_curve):
@@ -144,6 +144,11 @@ def test_hydrodynamics_of_the_docs(written: Path) -> None:
     assert 0.9 < frequency[1] / frequency[0] < 0.999
 
 
+def case_of(data: dict[str, Any], folder: Path) -> Case:
+    """A case whose relative paths start at a folder."""
+    return Case.model_validate(data, context={"folder": folder})
+
+
 def hydrodynamic_keys() -> list[str]:
     """Every key of the hydrodynamics but the source."""
     return [name for name in Hydrodynamics.model_fields if name != "source"]
@@ -151,9 +156,9 @@ def hydrodynamic_keys() -> list[str]:
 
 def test_case_of_the_docs(written: Path) -> None:
     """The case file with a load file of one's own runs to a report."""
-    case, folder = load_case(written / "my_case.yaml")
+    case = load_case(written / "my_case.yaml")
     short = case.analysis.model_copy(update={"dt": 0.04, "output_dt": 0.08})
-    summary = run_case(case.model_copy(update={"analysis": short}), written / "out", folder=folder)
+    summary = run_case(case.model_copy(update={"analysis": short}), written / "out")
     assert summary["status"] == "complete"
     assert summary["mudline_moment_y_mean_Nm"] > 4e7
     assert "my_load.txt" in (written / "out" / "report.html").read_text()
@@ -189,7 +194,7 @@ def test_sea_of_the_docs(written: Path) -> None:
         "gust": {"size_m_per_s": 5.0, "start_s": 8.0},
     }
     regular = {"height_m": 6.0, "period_s": 9.0, "direction_deg": 90.0}
-    record = Case.model_validate(base | measured).sea.sea(1, 30.0, written)
+    record = case_of(base | measured, written).water
     assert record is not None
     assert "buoy.csv" in record.in_words
     seas = [
@@ -200,7 +205,7 @@ def test_sea_of_the_docs(written: Path) -> None:
     ]
     for number, sea in enumerate(seas):
         out = written / f"sea{number}"
-        summary = run_case(Case.model_validate(base | {"sea": sea}), out, folder=written)
+        summary = run_case(case_of(base | {"sea": sea}, written), out)
         assert summary["status"] == "complete"
         with xr.open_dataset(out / "results.nc") as data:
             waves = data["wave_elevation"].sel(time=slice(10, 30))
@@ -217,15 +222,15 @@ def test_tower_top_loads_of_the_docs(written: Path) -> None:
     loads = [block for block in blocks if list(block) == ["tower_top_load"]]
     kinds = []
     for load in loads:
-        case = Case.model_validate(base | load)
+        case = case_of(base | load, written)
         assert case.tower_top_load is not None
         kinds.append(case.tower_top_load.kind)
     assert kinds == ["file", "openfast_output", "openfast_output", "file", "rotor"]
     short = {"duration_s": 30.0, "ramp_s": 5.0, "dt_s": 0.05, "output_dt_s": 0.1}
     analysis = base["analysis"] | short | {"psd_segment_s": 10.0}
     change = {"turbine": "oc3_phase2", "foundation": "clamped", "sea": {"kind": "still_water"}}
-    case = Case.model_validate(base | loads[-1] | change | {"analysis": analysis})
-    summary = run_case(case, written / "out", folder=written)
+    case = case_of(base | loads[-1] | change | {"analysis": analysis}, written)
+    summary = run_case(case, written / "out")
     assert summary["mean_thrust_N"] == pytest.approx(485.2e3, rel=0.01)
     assert {row["label"]: row["ratio"] for row in summary["aerodynamic_damping"]}["FA1"] > 0.03
 
@@ -252,7 +257,7 @@ def test_earthquakes_of_the_docs(written: Path, capsys: Any) -> None:
     base |= {"turbine": "oc3_phase2", "sea": {"kind": "still_water"}, "elements": 12}
     for number, earthquake in enumerate(earthquakes):
         out = written / f"earthquake{number}"
-        summary = run_case(Case.model_validate(base | earthquake), out, folder=written)
+        summary = run_case(case_of(base | earthquake, written), out)
         scale = 1.5 if number == 0 else 1.0
         peak = summary["earthquake"]["peak_ground_acceleration_m_per_s2"]
         assert np.hypot(peak["x"], peak["y"]) == pytest.approx(0.2 * 9.80665 * scale, rel=1e-9)

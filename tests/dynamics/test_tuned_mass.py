@@ -26,7 +26,7 @@ from offwind_pin.display.viewer.mode_page import animate
 from offwind_pin.dynamics.compiled.chain import CompiledChain
 from offwind_pin.loads.tower_top.load_history import TowerTopLoad
 from offwind_pin.structure.pinocchio_model import build_model
-from offwind_pin.structure.urdf import definition_hash, write_sidecar, write_urdf
+from offwind_pin.structure.urdf import write_sidecar, write_urdf
 
 Array = NDArray[np.float64]
 
@@ -362,9 +362,9 @@ def test_no_damper_changes_nothing(undamped: ow.Turbine) -> None:
     assert "tmd" not in write_urdf(undamped, chain)
     assert "damper" not in write_urdf(undamped, chain)
     assert "tuned_mass_dampers" not in write_sidecar(undamped, chain, chain.joint_stiffness, {})
-    hashes = {definition_hash(undamped)}
+    hashes = {undamped.content_hash}
     for z in (50.0, 60.0):
-        hashes.add(definition_hash(with_dampers(undamped, damper("a", z, "both"))))
+        hashes.add(with_dampers(undamped, damper("a", z, "both")).content_hash)
     assert len(hashes) == 3
     system = ow.build(undamped, "clamped", elements=5)
     assert "tuned_mass_displacement" not in ow.simulate(system, 0.1, 0.05)

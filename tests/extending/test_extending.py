@@ -39,6 +39,13 @@ def test_foundation(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert printed(capsys) == pytest.approx([1e5, 1.0], rel=1e-6)
 
 
+def test_soil_law(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """The formula at a point; far below the ultimate resistance nothing but the initial stiffness."""
+    found = run("Hyperbola", tmp_path)
+    assert printed(capsys) == pytest.approx([2e6, 1.0], rel=1e-6)
+    assert found["weak"] > 1.01 * found["straight"]
+
+
 def test_wave_model(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """The surface is a cosine, and in deep water the loads are those of linear theory."""
     found = run("DeepWaterWaves", tmp_path)
@@ -59,4 +66,4 @@ def test_step_policy(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None
 
 
 def test_every_example_is_run() -> None:
-    assert len(EXAMPLES) == 4
+    assert len(EXAMPLES) == 5

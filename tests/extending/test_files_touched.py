@@ -36,7 +36,12 @@ def files(*names: str) -> list[str]:
         ("load: its class, who makes it, its schema", ("TowerDrag", "tower_drag", "TowerWind"), 4),
         ("wave model: its class and its schema", ("StreamWaves",), 2),
         ("foundation", ("apparent_fixity",), 7),
-        ("soil family: curves, schema, layers, warnings", ("MatlockClay", "matlock"), 4),
+        (
+            "soil family: curves, schema, one line in layered.py",
+            ("MatlockClay", "MatlockClayFamily"),
+            3,
+        ),
+        ("soil law", ("PowerCurves",), 2),
         ("step policy", ("AdaptiveStep",), 1),
     ],
     ids=lambda value: value.partition(":")[0] if isinstance(value, str) else "",

@@ -7,13 +7,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 import offwind_pin as ow
-from offwind_pin.loads.point_load import PointForces, PointMotion, PointTangents
+from offwind_pin.loads.point_load import PointForces, PointLoad, PointMotion, PointTangents
+from offwind_pin.loads.root_restraint import RootRestraint
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class AtTop:
+class AtTop(PointLoad):
     """What the loads here have in common: one point, at the yaw bearing, and no tangents."""
 
     yaw_bearing: float
@@ -23,7 +24,7 @@ class AtTop:
     def height(self) -> Array:
         return np.array([self.yaw_bearing])
 
-    def tangents(self, time: float, motion: PointMotion, rise: float) -> PointTangents:
+    def tangents(self, time: float, motion: PointMotion, ramp_factor: float) -> PointTangents:
         return PointTangents.zeros(1)
 
 
@@ -34,8 +35,8 @@ class FromHistory(AtTop):
     history: ow.LoadHistory = None  # type: ignore[assignment]
     mean: Array = None  # type: ignore[assignment]
 
-    def forces(self, time: float, motion: PointMotion, rise: float) -> PointForces:
-        load = self.mean + rise * (self.history.at(time) - self.mean)
+    def forces(self, time: float, motion: PointMotion, ramp_factor: float) -> PointForces:
+        load = self.mean + ramp_factor * (self.history.at(time) - self.mean)
         return PointForces(load[None, :3], load[None, 3:])
 
 
@@ -55,12 +56,12 @@ class Fender(AtTop):
         into = (motion.displacement[0, 0] - self.gap) / self.depth
         return self.force * math.exp(min(into, 300.0))
 
-    def forces(self, time: float, motion: PointMotion, rise: float) -> PointForces:
+    def forces(self, time: float, motion: PointMotion, ramp_factor: float) -> PointForces:
         force = np.zeros((1, 3))
         force[0, 0] = -self._push(motion)
         return PointForces(force, np.zeros((1, 3)))
 
-    def tangents(self, time: float, motion: PointMotion, rise: float) -> PointTangents:
+    def tangents(self, time: float, motion: PointMotion, ramp_factor: float) -> PointTangents:
         result = PointTangents.zeros(1)
         result.stiffness[0, 0, 0] = -self._push(motion) / self.depth
         return result
@@ -72,7 +73,7 @@ class NotANumber(AtTop):
 
     after: float = 1.0
 
-    def forces(self, time: float, motion: PointMotion, rise: float) -> PointForces:
+    def forces(self, time: float, motion: PointMotion, ramp_factor: float) -> PointForces:
         return PointForces(np.full((1, 3), np.nan if time > self.after else 0.0), np.zeros((1, 3)))
 
 
@@ -87,19 +88,19 @@ class Raises(AtTop):
     after: float = 1.0
     in_tangents: bool = False
 
-    def forces(self, time: float, motion: PointMotion, rise: float) -> PointForces:
+    def forces(self, time: float, motion: PointMotion, ramp_factor: float) -> PointForces:
         if time > self.after and not self.in_tangents:
             raise MyMistakeError(f"at {time:g} s")
         return PointForces(np.full((1, 3), 1e5), np.zeros((1, 3)))
 
-    def tangents(self, time: float, motion: PointMotion, rise: float) -> PointTangents:
+    def tangents(self, time: float, motion: PointMotion, ramp_factor: float) -> PointTangents:
         if time > self.after and self.in_tangents:
             raise MyMistakeError(f"at {time:g} s")
         return PointTangents.zeros(1)
 
 
 @dataclass(frozen=True)
-class HardeningRestraint:
+class HardeningRestraint(RootRestraint):
     """Six uncoupled springs that stiffen, and dashpots: R = k (x + x^3 / x0^2) + c v."""
 
     stiffness: Array

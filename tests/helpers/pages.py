@@ -64,6 +64,25 @@ def wait(driver: webdriver.Chrome, condition: str) -> None:
     )
 
 
+_AFTER_FRAMES = """
+const done = arguments[arguments.length - 1];
+let frames = 10;
+const next = () => frames-- ? requestAnimationFrame(next) : done(player.now);
+next();
+"""
+
+
+def time_after_frames(driver: webdriver.Chrome) -> float:
+    """What the player shows once the browser has drawn ten more frames, however long they take."""
+    return float(driver.execute_async_script(_AFTER_FRAMES))
+
+
+def wait_for_change(driver: webdriver.Chrome) -> None:
+    """Until the player shows another time by 0.2 s, or has begun anew."""
+    now = driver.execute_script("return player.now")
+    wait(driver, f"return Math.abs(player.now - {now}) > 0.2")
+
+
 def picture(driver: webdriver.Chrome) -> Image:
     """(height, width, 3) pixels of the canvas as it is now, without what lies over it."""
     url: str = driver.execute_script("return viewer.capture_image()")

@@ -5,13 +5,13 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from offwind_pin.loads.point_load import PointForces, PointMotion, PointTangents
+from offwind_pin.loads.point_load import PointForces, PointLoad, PointMotion, PointTangents
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class TurningLoad:
+class TurningLoad(PointLoad):
     """A force and moment at the yaw bearing that grow smoothly and turn around."""
 
     yaw_bearing: float
@@ -21,35 +21,35 @@ class TurningLoad:
     def height(self) -> Array:
         return np.array([self.yaw_bearing])
 
-    def forces(self, time: float, motion: PointMotion, rise: float) -> PointForces:
+    def forces(self, time: float, motion: PointMotion, ramp_factor: float) -> PointForces:
         grown = 1 - np.cos(2 * time)
         force = grown * np.array([2e6 * np.cos(3 * time), 2e6 * np.sin(3 * time), 0.0])
         moment = grown * np.array([1e7, 2e7 * np.cos(time), 1e7 * np.sin(2 * time)])
         return PointForces(force[None], moment[None])
 
-    def tangents(self, time: float, motion: PointMotion, rise: float) -> PointTangents:
+    def tangents(self, time: float, motion: PointMotion, ramp_factor: float) -> PointTangents:
         return PointTangents.zeros(1)
 
 
 @dataclass(frozen=True)
-class Probe:
+class Probe(PointLoad):
     """No force at all; it keeps the last motion that it was shown."""
 
     height: Array
     name: str = "probe"
     seen: list[PointMotion] = field(default_factory=list)
 
-    def forces(self, time: float, motion: PointMotion, rise: float) -> PointForces:
+    def forces(self, time: float, motion: PointMotion, ramp_factor: float) -> PointForces:
         self.seen[:] = [motion]
         return PointForces(*np.zeros((2, len(self.height), 3)))
 
-    def tangents(self, time: float, motion: PointMotion, rise: float) -> PointTangents:
+    def tangents(self, time: float, motion: PointMotion, ramp_factor: float) -> PointTangents:
         return PointTangents.zeros(len(self.height))
 
 
 @dataclass(frozen=True)
-class EveryKind:
-    """Depends on everything a load is shown: F = -k |u|^2 u - c |v|^2 v - m (e.a) e + time, rise.
+class EveryKind(PointLoad):
+    """Depends on everything a load is shown: F = -k |u|^2 u - c |v|^2 v - m (e.a) e + time, ramp factor.
 
     stiffness k in N/m3, damping c in N s3/m3, mass m in kg
     """
@@ -60,15 +60,15 @@ class EveryKind:
     mass: float = 4e4
     name: str = "every kind"
 
-    def forces(self, time: float, motion: PointMotion, rise: float) -> PointForces:
+    def forces(self, time: float, motion: PointMotion, ramp_factor: float) -> PointForces:
         assert motion.acceleration is not None
         u, v, e, a = motion.displacement, motion.velocity, motion.axis, motion.acceleration
         force = -self.stiffness * _square(u) * u - self.damping * _square(v) * v
         force -= self.mass * np.sum(e * a, axis=1, keepdims=True) * e
-        moment = np.tile([1e5 * time, 0.0, 1e5 * rise], (len(self.height), 1))
+        moment = np.tile([1e5 * time, 0.0, 1e5 * ramp_factor], (len(self.height), 1))
         return PointForces(force, moment, float(np.sum(self.damping * _square(v) ** 2)))
 
-    def tangents(self, time: float, motion: PointMotion, rise: float) -> PointTangents:
+    def tangents(self, time: float, motion: PointMotion, ramp_factor: float) -> PointTangents:
         assert motion.acceleration is not None
         e, a = motion.axis, motion.acceleration
         along = np.sum(e * a, axis=1)[:, None, None] * np.eye(3)

@@ -33,17 +33,20 @@ class RegularWater:
     def lowest_surface(self) -> float:
         return -self.highest_surface
 
-    def surface(self, time: Array, rise: Array) -> Array:
-        return rise * self.highest_surface * np.cos(self.omega * time)
+    def elevation(self, time: Array, ramp_factor: Array) -> Array:
+        return ramp_factor * self.amplitude * np.cos(self.omega * time)
 
-    def rows(self, time: Array, rise: Array) -> Array:
+    def surface(self, time: Array, ramp_factor: Array) -> Array:
+        return ramp_factor * self.highest_surface * np.cos(self.omega * time)
+
+    def time_inputs(self, time: Array, ramp_factor: Array) -> Array:
         k, above_bed = self.wave_number, self.height + self.depth
         size = self.amplitude * self.omega / np.sinh(k * self.depth)
-        phase = (rise * np.exp(1j * self.omega * time))[:, None]
+        phase = (ramp_factor * np.exp(1j * self.omega * time))[:, None]
         velocity = np.zeros((len(time), len(self.height), 3), dtype=complex)
         velocity[..., 0] = phase * size * np.cosh(k * above_bed)
         velocity[..., 2] = phase * 1j * size * np.sinh(k * above_bed)
-        surface = self.surface(time, rise)[:, None]
+        surface = self.surface(time, ramp_factor)[:, None]
         moving = [velocity, 1j * self.omega * self.inertia_factor * velocity]
         parts = [surface, *(part.reshape(len(time), -1) for part in moving)]
         return np.ascontiguousarray(np.hstack(parts).real)
@@ -65,10 +68,13 @@ class SteadyWater:
     def lowest_surface(self) -> float:
         return self.level
 
-    def surface(self, time: Array, rise: Array) -> Array:
+    def elevation(self, time: Array, ramp_factor: Array) -> Array:
+        return np.zeros(len(time))
+
+    def surface(self, time: Array, ramp_factor: Array) -> Array:
         return np.full(len(time), self.highest_surface)
 
-    def rows(self, time: Array, rise: Array) -> Array:
+    def time_inputs(self, time: Array, ramp_factor: Array) -> Array:
         velocity = np.tile(self.current, self.count)
         row = np.concatenate([[self.level], velocity, np.zeros(3 * self.count)])
         return np.tile(row, (len(time), 1))

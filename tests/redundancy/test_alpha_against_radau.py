@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 import offwind_pin as ow
 from offwind_pin.analysis.integrators import SciPyIVP
+from offwind_pin.loads.soil.springs.elastic import CONSTANT_DASHPOT
 
 Array = NDArray[np.float64]
 
@@ -95,7 +96,7 @@ def test_samples_are_dense_enough(problem: ModuleType, structure: ow.System) -> 
     """Between its samples the force is off by a millionth at most."""
     load = problem.load(structure, 10.0)
     time = np.linspace(0, 10, 9973)
-    error = load.rows(time, np.ones_like(time))[:, 0] - problem.force(time)
+    error = load.time_inputs(time, np.ones_like(time))[:, 0] - problem.force(time)
     assert 0 < np.abs(error).max() < 1e-6 * problem.FORCE_MEAN
 
 
@@ -112,7 +113,8 @@ def test_problem_is_as_stated(problem: ModuleType, structure: ow.System) -> None
     assert soil.height == pytest.approx(np.linspace(-30, -75, 61))
     assert soil.curves.resistance(y) == pytest.approx(2e8 * 0.01 * np.tanh(y / 0.01), rel=1e-12)
     assert soil.tributary_length == pytest.approx(length)
-    viscous = soil.constants[:, 8]
+    (springs,) = soil.compiled()
+    viscous = springs.constants[:, CONSTANT_DASHPOT]
     assert viscous == pytest.approx(2e8 * length * 0.1 / (np.pi * 0.236), rel=1e-12)
     assert np.all(soil.dashpot.secant_time == 0)
     toe = whole.foundation.root

@@ -84,7 +84,7 @@ def test_soil_stands_in_the_ground_at_its_depth(linear_soil: ow.System) -> None:
     chain, state = CompiledChain(linear_soil, ground_motion=motion), random_state(linear_soil)
     compiled(chain, state)
     s, m, (soil,) = chain.data, chain.model, linear_soil.foundation.soil
-    place = next(i for i, load in enumerate(chain.loads) if load is soil)
+    place = chain.loads.index(soil.compiled()[0])
     at = slice(*m.first_point[place : place + 2])
     given = motion.motion(np.array([TIME]))[0]
     assert motion.height is not None

@@ -41,12 +41,12 @@ def loads(system: ow.System) -> list[PointLoad]:
 
 
 def by_products(system: ow.System, q: Array) -> tuple[Array, Array, Array]:
-    chain = CompiledChain(system, loads(system), ramp_time=np.inf)
+    chain = CompiledChain(system, loads(system), ramp_time=None)
     return CompiledPencil(chain, q).matrices()
 
 
 def dense(system: ow.System, q: Array) -> tuple[Array, Array, Array]:
-    equations = system.equations(loads(system), np.inf)
+    equations = system.equations(loads(system), None)
     stiffness, damping = equations.tangents(0.0, q, np.zeros_like(q))
     return equations.mass(q), damping, stiffness
 
@@ -79,7 +79,7 @@ def test_symmetric_part_and_solutions(any_system: ow.System) -> None:
     """Products with the transpose, and shifted solutions, by dense algebra."""
     q = random_state(any_system, 2, 0.02).q
     mass, _, stiffness = dense(any_system, q)
-    chain = CompiledChain(any_system, loads(any_system), ramp_time=np.inf)
+    chain = CompiledChain(any_system, loads(any_system), ramp_time=None)
     pencil = CompiledPencil(chain, q)
     unit, kinds = np.eye(any_system.nv), joint_kinds_apart(any_system)
     found = pencil.symmetric_stiffness_times(unit)

@@ -205,7 +205,7 @@ def test_other_systems_are_refused(system: ow.System, tmp_path: Path) -> None:
     sea = system.sea
     assert isinstance(sea, ow.IrregularWaves)
     others = {
-        "wave_seed": replace(system, sea=replace(sea, seed=4)),
+        "wave_seed": replace(system, sea=sea.replace(seed=4)),
         "elements": ow.build(system.turbine, "distributed_springs", sea, elements=5),
         "element": ow.build(
             system.turbine, "distributed_springs", sea, elements=4, element="timoshenko"

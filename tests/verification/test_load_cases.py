@@ -21,8 +21,8 @@ from offwind_pin.results.tree import required
 ALWAYS = {"case", "wall_s", "simulated_s", "realtime_factor", "status"}
 
 
-def _run(case: Case, folder: Path, out: Path) -> dict[str, Any]:
-    run_case(case, out, folder=folder)
+def _run(case: Case, out: Path) -> dict[str, Any]:
+    run_case(case, out)
     summary: dict[str, Any] = json.loads((out / "summary.json").read_text())
     return summary
 
@@ -31,7 +31,7 @@ def _run(case: Case, folder: Path, out: Path) -> dict[str, Any]:
 def lc51(tmp_path_factory: pytest.TempPathFactory) -> tuple[dict[str, Any], Path]:
     """LC 5.1 as shipped: 660 s at 0.02 s."""
     out = tmp_path_factory.mktemp("lc51")
-    return _run(*load_case("oc6-lc5.1"), out), out
+    return _run(load_case("oc6-lc5.1"), out), out
 
 
 def test_the_contract_names_four_cases() -> None:
@@ -41,7 +41,7 @@ def test_the_contract_names_four_cases() -> None:
 
 def test_lc12_increase_over_clamped(tmp_path: Path) -> None:
     """Gravity: the surrogate soil lets the tower lean 11.4 % further; 14.3 % is published."""
-    summary = _run(*load_case("oc6-lc1.2"), tmp_path)
+    summary = _run(load_case("oc6-lc1.2"), tmp_path)
     assert summary.keys() >= ALWAYS
     assert summary["status"] == "complete"
     assert summary["clamped_tower_top_x_m"] == pytest.approx(-0.2072, rel=3e-3)
@@ -63,7 +63,7 @@ def test_lc12_increase_over_clamped(tmp_path: Path) -> None:
 
 def test_lc21_frequencies(tmp_path: Path) -> None:
     """Clamped and dry: five frequencies on which four independent programs agree."""
-    summary = _run(*load_case("oc6-lc2.1"), tmp_path)
+    summary = _run(load_case("oc6-lc2.1"), tmp_path)
     expected = {"FA1": 0.2744, "SS1": 0.2716, "T1": 1.2692, "FA2": 1.4436, "SS2": 1.3416}
     found = {row["label"]: row["frequency_hz"] for row in summary["modes"]}
     for label, frequency in expected.items():
@@ -78,12 +78,12 @@ def test_lc23_frequencies_and_peak(tmp_path: Path) -> None:
     The ledger has the whole three hours; in so short a record the first mode's damping scatters too
     much to be compared, and the summary says by how much.
     """
-    case, folder = load_case("oc6-lc2.3")
+    case = load_case("oc6-lc2.3")
     assert isinstance(case.analysis, ModalAnalysis)
     assert case.analysis.identify is not None
     short = case.analysis.identify.model_copy(update={"duration": 2000.0})
     analysis = case.analysis.model_copy(update={"identify": short})
-    summary = _run(case.model_copy(update={"analysis": analysis}), folder, tmp_path)
+    summary = _run(case.model_copy(update={"analysis": analysis}), tmp_path)
     modes = {row["label"]: row for row in summary["modes"]}
     assert 0.235 < modes["FA1"]["frequency_hz"] < 0.245
     assert 1.12 < modes["FA2"]["frequency_hz"] < 1.16
@@ -174,11 +174,11 @@ def test_lc51_report_calls_surrogates_so(lc51: tuple[dict[str, Any], Path]) -> N
 
 def test_lc51_halving_the_step(lc51: tuple[dict[str, Any], Path], tmp_path: Path) -> None:
     """Half the time step changes the standard deviation of the moment by less than 1 %."""
-    case, folder = load_case("oc6-lc5.1")
+    case = load_case("oc6-lc5.1")
     halved = case.model_copy(
         update={"analysis": case.analysis.model_copy(update={"dt": case.analysis.dt / 2})}
     )
-    summary = _run(halved, folder, tmp_path)
+    summary = _run(halved, tmp_path)
     assert summary["steps"] == 2 * lc51[0]["steps"]
     assert summary["mudline_moment_y_std_Nm"] == pytest.approx(
         lc51[0]["mudline_moment_y_std_Nm"], rel=0.01

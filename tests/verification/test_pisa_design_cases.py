@@ -24,7 +24,7 @@ from offwind_pin.loads.soil.curves.layered import (
     lateral_curves,
     rocking_curves,
 )
-from offwind_pin.loads.soil.soil_profile import Ground
+from offwind_pin.loads.soil.soil_profile import PileNodes
 
 TILL = LayeredGround.model_validate(
     {
@@ -81,12 +81,14 @@ def load_at_a_tenth(
 ) -> float:
     """Lateral load in N at a height ``arm`` above the mudline that moves the pile there by D / 10."""
     depth = np.linspace(0.0, length, ELEMENTS + 1)
-    ground = Ground(depth, np.full(ELEMENTS + 1, diameter), length)
+    ground = PileNodes(depth, np.full(ELEMENTS + 1, diameter), length)
     tributary = np.full(ELEMENTS + 1, length / ELEMENTS)
     tributary[[0, -1]] /= 2
     lateral, rocking = lateral_curves(TILL, ground), rocking_curves(TILL, ground)
     shear, moment = base_shear_curve(TILL, ground), base_moment_curve(TILL, ground)
     assert rocking is not None
+    nodes, moments = rocking
+    assert len(nodes) == ELEMENTS + 1
     assert shear is not None
     assert moment is not None
     beam = beam_stiffness(diameter, thickness, length)
@@ -99,7 +101,7 @@ def load_at_a_tenth(
         springs = np.zeros(len(beam))
         springs[0::2] = lateral.secant(v) * tributary
         if all_reactions:
-            springs[1::2] = rocking.curves.secant(psi) * tributary
+            springs[1::2] = moments.curves.secant(psi) * tributary
             springs[-2] += shear.secant(v[-1:])[0]
             springs[-1] += moment.secant(psi[-1:])[0]
         unit = np.linalg.solve(beam + np.diag(springs), load)

@@ -13,7 +13,7 @@ import offwind_pin as ow
 from offwind_pin.analysis import simulate as transient
 from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.dynamics.compiled.chain import CompiledChain
-from offwind_pin.loads.point_load import PointForces, PointMotion, PointTangents
+from offwind_pin.loads.point_load import PointForces, PointLoad, PointMotion, PointTangents
 from offwind_pin.loads.root_restraint import LinearRestraint
 
 Array = NDArray[np.float64]
@@ -22,7 +22,7 @@ STRONG = np.array([4e6, 0, 0, 0, 0, 0])
 """At the yaw bearing, in N: several times what operation gives, so that the soil yields."""
 
 
-class Swing:
+class Swing(PointLoad):
     """A force at the yaw bearing that swings along x."""
 
     name = "swing"
@@ -31,11 +31,11 @@ class Swing:
         self.height = np.array([yaw_bearing])
         self.amplitude, self.period = amplitude, period
 
-    def forces(self, time: float, motion: PointMotion, rise: float) -> PointForces:
-        size = rise * self.amplitude * np.sin(2 * np.pi * time / self.period)
+    def forces(self, time: float, motion: PointMotion, ramp_factor: float) -> PointForces:
+        size = ramp_factor * self.amplitude * np.sin(2 * np.pi * time / self.period)
         return PointForces(np.array([[size, 0.3 * size, 0.0]]), np.zeros((1, 3)))
 
-    def tangents(self, time: float, motion: PointMotion, rise: float) -> PointTangents:
+    def tangents(self, time: float, motion: PointMotion, ramp_factor: float) -> PointTangents:
         return PointTangents.zeros(1)
 
 

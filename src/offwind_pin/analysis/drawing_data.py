@@ -17,7 +17,6 @@ from offwind_pin.loads.sea.sea import StillWater
 from offwind_pin.loads.sea.waves.surface import SurfaceWaves
 from offwind_pin.loads.soil.springs.elastic import SoilSprings
 from offwind_pin.structure.section import frusta, outer_diameter
-from offwind_pin.structure.urdf import definition_hash
 
 Constants = dict[str, tuple[str, Array, dict[str, str]]]
 
@@ -52,7 +51,7 @@ def system_attributes(system: System) -> dict[str, Any]:
     """Provenance of a static state or of natural modes."""
     return {
         "turbine": system.turbine.name,
-        "definition_sha256": definition_hash(system.turbine),
+        "definition_sha256": system.turbine.content_hash,
         "foundation": system.foundation.name,
         "sea": repr(system.sea) if system.sea else "dry",
         "surrogates": system.foundation.surrogate or "none",

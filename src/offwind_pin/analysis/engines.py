@@ -7,7 +7,6 @@ generalised-alpha are the same.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, get_args
 
@@ -70,10 +69,10 @@ def resting_chain(
     if engine == "pinocchio":
         from offwind_pin.dynamics.reference.dense_chain import DenseChain
 
-        return DenseChain(system.equations(loads, math.inf))
+        return DenseChain(system.equations(loads, None))
     from offwind_pin.dynamics.compiled.chain import CompiledChain
 
-    return CompiledChain(system, loads, math.inf)
+    return CompiledChain(system, loads)
 
 
 def pencil(system: System, about: StaticResult, engine: Engine) -> CompiledPencil | DensePencil:
@@ -87,11 +86,11 @@ def pencil(system: System, about: StaticResult, engine: Engine) -> CompiledPenci
     if engine == "pinocchio":
         from offwind_pin.dynamics.reference.dense_pencil import DensePencil
 
-        return DensePencil(system.equations(about.acting_loads(), math.inf, about.memory), about.q)
+        return DensePencil(system.equations(about.acting_loads(), None, about.memory), about.q)
     from offwind_pin.dynamics.compiled.chain import CompiledChain
     from offwind_pin.dynamics.compiled.pencil import CompiledPencil
 
-    chain = CompiledChain(system, about.acting_loads(), math.inf)
+    chain = CompiledChain(system, about.acting_loads())
     chain.memory = about.memory
     return CompiledPencil(chain, about.q)
 

@@ -14,7 +14,7 @@ from offwind_pin.base.definition import Array
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.sea.forces.morison import MorisonForce
 from offwind_pin.loads.sea.forces.strips import wet_share
-from offwind_pin.loads.sea.hydrodynamic_loads import Waters
+from offwind_pin.loads.sea.hydrodynamic_loads import HydrodynamicModel
 from offwind_pin.loads.sea.irregular_waves import IrregularWaves
 from offwind_pin.loads.sea.kinematics import WaterSeries, WaterSurface
 from offwind_pin.loads.sea.sea import Sea
@@ -295,7 +295,7 @@ class Profile:
     current: Array
 
 
-def profiles(waters: Waters, sea: Sea, times: Array) -> list[Profile]:
+def profiles(waters: HydrodynamicModel, sea: Sea, times: Array) -> list[Profile]:
     """Of fully grown waves at times (t,) in s, with the sea's own stretching."""
     surface, mudline = waters.surface, waters.turbine.site.mudline
     tops = surface.at(times, np.ones(len(times)))
@@ -306,7 +306,7 @@ def profiles(waters: Waters, sea: Sea, times: Array) -> list[Profile]:
     if sea.current is not None:
         current = sea.current.velocity(height - surface.level, surface.level - mudline)
     water = WaterSeries(height, surface, current=current)
-    rows = water.rows(times, np.ones(len(times)))
+    rows = water.time_inputs(times, np.ones(len(times)))
     motion = rows[:, 1:].reshape(len(times), 2, len(height), 3)
     elevation = surface.elevation(times)
     return [
@@ -398,7 +398,7 @@ def force_per_length(force: MorisonForce, time: Array, along: Array) -> ForcePer
     """
     strips = force.strips
     n = len(strips.height)
-    rows = force.rows(time, np.ones(len(time)))
+    rows = force.time_inputs(time, np.ones(len(time)))
     motion = rows[:, 1:].reshape(len(time), 2, n, 3)[..., :2]
     inertia, drag = force.constants[:, 0], force.constants[:, 1]
     share = _shares(rows[:, 0], force.constants[:, 2], force.constants[:, 3])

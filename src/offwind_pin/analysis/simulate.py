@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 import logging
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -27,27 +25,23 @@ from offwind_pin.analysis.static import static
 from offwind_pin.analysis.wave_checks import check_waves, wave_facts
 from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError, InterruptedSimulation, SolverError
+from offwind_pin.base.fingerprint import NoFingerprintError, content_hash
 from offwind_pin.definitions.engine import Engine
 from offwind_pin.dynamics.acting_loads import smooth_ramp
 from offwind_pin.dynamics.compiled.chain import CompiledChain
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.earthquake.ground_motion import GroundMotion, ground_motion_cautions
-from offwind_pin.loads.point_load import PointLoad
-from offwind_pin.loads.python_load import PythonLoad
-from offwind_pin.loads.tower_top.load_history import LoadHistory, TowerTopLoad, constant_load
+from offwind_pin.loads.point_load import PointLoad, joined_attributes
+from offwind_pin.loads.tower_top.load_history import LoadHistory, constant_load
 from offwind_pin.results.blocks import BLOCK_FOLDER, Block, BlockStore, FolderStore, MemoryStore
-from offwind_pin.results.dataset import HistoryWriter
+from offwind_pin.results.dataset import HistoryWriter, versions
 from offwind_pin.solvers.steps import FixedStep
-from offwind_pin.structure.urdf import definition_hash
 
 _log = logging.getLogger(__name__)
 
 Progress = Callable[[float], None]
 Start = Literal["static", "undeformed"]
 
-_SAMPLES = 2001
-"""Times at which a run's loads are compared with those of the run it goes on from: of an hour every
-two seconds, so that no gust lies in between."""
 _BLOCK_SECONDS = 20.0
 _BLOCK_STEPS = 2000
 """A block ends with an output and holds no more than either; it is what a killed run loses."""
@@ -137,7 +131,7 @@ def simulate(
         raise InputError(
             "duration", duration, f"a multiple of {interval} s, the output's interval", "Adjust it."
         )
-    acting = [_at_yaw_bearing(system, load, ramp, duration) for load in loads]
+    acting = [_point_load(system, load, ramp, duration) for load in loads]
     chain = moving_chain(system, acting, ramp, ground_motion, engine)
     parts = _segments(system, segments)
     sections = chain.sections(_recorded_heights(system, heights, parts), parts)
@@ -147,30 +141,35 @@ def simulate(
         q, chain.memory = resting.q, resting.memory
     state = method.begin(chain, q, interval)
     check_waves(system, duration, ramp, method.describe().get("dt_s"))
-    attributes = _provenance(system, acting, ramp, interval, method)
+    attributes = _provenance(system, chain.acting, ramp, interval, method)
     attributes |= {"engine": engine, "start": start}
     if ground_motion is not None:
         attributes |= _told_of(ground_motion, dt, duration)
     attributes |= provenance or {}
     run = {
         **attributes,
+        **versions(),
         "duration_s": duration,
-        "inputs_sha256": _fingerprint(chain, sections, duration),
     }
     store: BlockStore = MemoryStore()
     if directory is not None:
-        store = FolderStore(Path(directory) / BLOCK_FOLDER, run)
+        store = _folder_store(Path(directory) / BLOCK_FOLDER, run, chain, sections)
     writer = HistoryWriter(
         system.turbine.site.mudline,
         sections[0].height,
         parts,
-        [load.name for load in chain.loads],
-        chain.stores,
+        [load.name for load in chain.acting],
+        np.array([parts[0].stores_energy for parts in chain.parts], dtype=np.bool_),
         attributes,
         drawing_data(system),
         _ground_levels(system, ground_motion),
         {mass.name: mass.travel for mass in system.chain.sliding_mass},
         chain.soil.height,
+        {
+            channel.name: (channel.dims, channel.long_name, channel.units)
+            for load in chain.acting
+            for channel in load.channels
+        },
     )
     cautioned: set[str] = set()
     if len(store) == 0:
@@ -272,19 +271,12 @@ def _segments(
 def _block(chain: CompiledChain, state: MotionState, records: Records) -> Block:
     """Records and the state at their end, with the loads that depend on time alone."""
     time = records["time"]
-    rise = smooth_ramp(time, chain.ramp_time)
-    waters = chain.system.waters
-    elevation = np.zeros(len(time))
-    if waters is not None:
-        elevation = rise * waters.surface.elevation(time)
     shaken = {}
     if chain.ground_motion is not None:
         shaken["ground_motion"] = chain.ground_motion.motion(time)
-    tops = [load.rows(time, rise) for load in chain.loads if isinstance(load, TowerTopLoad)]
     return {
-        **records,
-        "tower_top_load": np.sum([np.zeros((len(time), 6)), *tops], axis=0),
-        "wave_elevation": elevation,
+        **_of_whole_loads(chain, records),
+        **_load_outputs(chain, time, smooth_ramp(time, chain.ramp_time)),
         **shaken,
         **{f"state_{name}": np.asarray(value) for name, value in state._asdict().items()},
     }
@@ -311,42 +303,92 @@ def _check_settings(duration: float, dt: float, ramp: float, output_dt: float | 
         raise InputError("ramp", ramp, f"0 to less than the duration ({duration} s)", "Shorten it.")
 
 
-def _at_yaw_bearing(
+def _point_load(
     system: System, load: PointLoad | LoadHistory | Array, ramp: float, duration: float
 ) -> PointLoad:
+    """What was given for a load as one that acts on this system."""
     if isinstance(load, np.ndarray):
         return constant_load(system.chain.top, load)
-    if not isinstance(load, LoadHistory):
-        return load
-    if load.time[0] > 0 or load.time[-1] < duration - 1e-9:
-        raise InputError(
-            f"load history {load.origin!r}, time",
-            f"{load.time[0]} to {load.time[-1]} s",
-            f"samples from 0 to at least {duration} s",
-            "Shorten the simulation or extend the file.",
-        )
-    return TowerTopLoad(system.chain.top, load, load.mean(ramp, duration))
+    if isinstance(load, LoadHistory):
+        return load.acting(system.chain.top, ramp, duration)
+    return load
 
 
-def _fingerprint(chain: CompiledChain, sections: Sections, duration: float) -> str:
-    """Hash of everything that determines the results besides the settings: loads and heights."""
-    digest = hashlib.sha256()
-    time_inputs = chain.time_inputs(np.linspace(0.0, duration, _SAMPLES))
-    digest.update(json.dumps(chain.system.foundation.describe()).encode())
-    arrays = [time_inputs, sections[0].height, sections[1].cut]
-    arrays += [chain.model.stiffness, chain.model.damping]
-    if chain.ground_motion is not None:
-        motion = chain.ground_motion
-        arrays += [motion.time, motion.corrected, motion.levels]
-    for load in chain.loads:
-        arrays.append(load.height)
-        if not isinstance(load, PythonLoad):  # whose inside is not to be seen
-            arrays.append(load.constants)
-        if isinstance(load, TowerTopLoad):
-            arrays += [load.history.time, load.history.load, load.mean]
-    for array in arrays:
-        digest.update(np.ascontiguousarray(array).tobytes())
-    return digest.hexdigest()
+def _folder_store(
+    folder: Path, run: dict[str, Any], chain: CompiledChain, sections: Sections
+) -> FolderStore:
+    """Blocks in a folder, with those of a stopped run if it was this one.
+
+    Raises
+    ------
+    InputError : blocks of another run, or of one that cannot be told from others
+    """
+    unknown = None
+    try:
+        inputs = _fingerprint(chain, sections)
+    except InputError as error:
+        inputs, unknown = "unknown", error
+    store = FolderStore(folder, run | {"inputs_sha256": inputs})
+    if unknown is not None and len(store):
+        raise unknown
+    return store
+
+
+def _fingerprint(chain: CompiledChain, sections: Sections) -> str:
+    """Hash of everything that determines the results besides the settings: loads and heights.
+
+    Raises
+    ------
+    InputError : a load or root restraint whose content cannot be hashed
+    """
+    root = chain.system.foundation.root
+    parts = {f"load {load.name!r}": load.fingerprint for load in chain.acting}
+    if root is not None:
+        parts["root restraint"] = root.fingerprint
+    found = []
+    for name, fingerprint in parts.items():
+        try:
+            found.append(fingerprint())
+        except NoFingerprintError as error:
+            raise InputError(
+                f"{name}, method fingerprint",
+                f"{error} among the attributes",
+                "numbers, texts, arrays and objects made of them",
+                "Give the class a method fingerprint() -> str that hashes what determines its "
+                "forces, or delete the directory to start anew.",
+            ) from None
+    return content_hash(
+        found,
+        chain.system.foundation.describe(),
+        sections[0].height,
+        sections[1].cut,
+        chain.model.stiffness,
+        chain.model.damping,
+        chain.ground_motion,
+    )
+
+
+def _load_outputs(chain: CompiledChain, time: Array, ramp_factor: Array) -> Block:
+    """Channels of the loads that depend on time alone, those of one name summed."""
+    found = {"tower_top_load": np.zeros((len(time), 6)), "wave_elevation": np.zeros(len(time))}
+    for load in chain.acting:
+        for name, values in load.outputs(time, ramp_factor).items():
+            found[name] = found[name] + values if name in found else values
+    return found
+
+
+def _of_whole_loads(chain: CompiledChain, records: Records) -> Records:
+    """Records whose energies are those of loads, not of their parts in compiled code."""
+    counts = [len(parts) for parts in chain.parts]
+    if len(counts) == sum(counts):
+        return records
+    begin = np.cumsum([0, *counts[:-1]])
+    changed = {}
+    for name in ("stored", "dissipated", "worked"):
+        own = records[name].shape[1] - sum(counts)
+        parts = np.add.reduceat(records[name][:, own:], begin, axis=1)
+        changed[name] = np.hstack([records[name][:, :own], parts])
+    return records | changed
 
 
 def _told_of_waves(system: System) -> dict[str, Any]:
@@ -385,17 +427,16 @@ def _told_of(motion: GroundMotion, dt: float, duration: float) -> dict[str, str]
 def _provenance(
     system: System, loads: Sequence[PointLoad], ramp: float, interval: float, method: Integrator
 ) -> dict[str, Any]:
-    origins = [load.history for load in loads if isinstance(load, TowerTopLoad)]
-    surrogates = [system.foundation.surrogate, *(history.surrogate for history in origins)]
+    surrogates = [system.foundation.surrogate, *(load.surrogate for load in loads)]
     return {
         "turbine": system.turbine.name,
-        "definition_sha256": definition_hash(system.turbine),
+        "definition_sha256": system.turbine.content_hash,
         "foundation": system.foundation.name,
         "sea": repr(system.sea) if system.sea else "dry",
         "wave_seed": -1 if system.sea is None else system.sea.wave_seed,
         **_told_of_waves(system),
         **drawing_attributes(system),
-        "tower_top_load_origin": "; ".join(history.origin for history in origins) or "none",
+        **({"tower_top_load_origin": "none"} | joined_attributes(loads)),
         "surrogates": " | ".join(text for text in surrogates if text) or "none",
         "elements": system.chain.elements,
         "element": "timoshenko" if "px" in system.chain.node_joints else "euler_bernoulli",

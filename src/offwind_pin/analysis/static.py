@@ -197,7 +197,7 @@ def static(
     if tower_top_load is not None:
         acting.append(constant_load(system.chain.top, tower_top_load))
     chain = resting_chain(system, acting, engine)
-    time_inputs = chain.time_inputs(np.zeros(1))[0]
+    time_inputs = chain.mean_inputs()
     rest = np.zeros(system.nv)
     scale = load_scale(system)
     if after is not None:

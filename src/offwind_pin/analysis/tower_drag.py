@@ -7,7 +7,8 @@ import numpy as np
 from offwind_pin.base.errors import InputError
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.sea.forces.strips import Strips
-from offwind_pin.loads.wind.tower_drag import STRIP_LENGTH, TowerDrag, TowerWind
+from offwind_pin.loads.wind.tower_drag import STRIP_LENGTH, TowerDrag
+from offwind_pin.loads.wind.tower_wind import TowerWind
 from offwind_pin.structure.section import outer_diameter
 
 

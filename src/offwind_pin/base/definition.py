@@ -1,14 +1,31 @@
-"""What every definition is made of: numbers with their ranges, and the frozen base class."""
+"""What every definition is made of: numbers with their ranges, files, and the frozen base class."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import hashlib
+import inspect
+import json
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Annotated, Any, TypeVar
+from typing import Annotated, Any, ClassVar, Self, dataclass_transform
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    PlainSerializer,
+    ValidationError,
+    ValidationInfo,
+    ValidatorFunctionWrapHandler,
+    WrapValidator,
+)
+from pydantic.fields import FieldInfo
+
+from offwind_pin.base.errors import InputError
+from offwind_pin.base.validation import input_error
 
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -20,35 +37,228 @@ def _reject_bool(value: Any) -> Any:
     return value
 
 
+def _listed(value: Any) -> Any:
+    return value.tolist() if isinstance(value, np.ndarray) else value
+
+
+def _locate(value: Any, validate: ValidatorFunctionWrapHandler, info: ValidationInfo) -> Path:
+    """Absolute path of a file; a relative one starts at the folder of the file that names it."""
+    recorded = None
+    if isinstance(value, dict):
+        if not {"path"} <= value.keys() <= {"path", "sha256"}:
+            raise ValueError("a file needs a path; give it alone, or as {path, sha256}")
+        value, recorded = value["path"], value.get("sha256")
+    folder = (info.context or {}).get("folder", "")
+    path: Path = (folder / validate(value)).absolute()
+    if recorded is not None and path.is_file() and file_digest(path) != recorded:
+        raise ValueError(
+            f"{path} has changed since its SHA-256 was recorded; restore it, or leave sha256 out"
+        )
+    return path
+
+
+def _file_record(path: Path) -> dict[str, str | None]:
+    return {"path": str(path), "sha256": file_digest(path) if path.is_file() else None}
+
+
 Number = Annotated[float, BeforeValidator(_reject_bool), Field(allow_inf_nan=False)]
 Positive = Annotated[Number, Field(gt=0)]
 NonNegative = Annotated[Number, Field(ge=0)]
 Vector3 = tuple[Number, Number, Number]
 Vector6 = tuple[Number, Number, Number, Number, Number, Number]
+Direction = Annotated[Number, Field(ge=-360, le=360)]
+"""In degrees."""
+Seed = Annotated[int, BeforeValidator(_reject_bool), Field(ge=0, lt=2**31)]
+Numbers = Annotated[tuple[Number, ...], BeforeValidator(_listed)]
+"""Numbers in a row, from a list, a tuple or a one-dimensional array."""
+File = Annotated[Path, WrapValidator(_locate), PlainSerializer(_file_record, when_used="json")]
+"""Absolute path of a file. JSON has ``{path, sha256}``; reading it refuses a file that changed."""
 
 
+def key(name: str, *, default: Any = ..., kw_only: bool | None = None) -> Any:
+    """A field that files name otherwise than Python does, usually with its unit.
+
+    Parameters
+    ----------
+    name : key in a file, such as ``height_m``
+    """
+    return Field(default, validation_alias=name, serialization_alias=name, kw_only=kw_only)
+
+
+@dataclass_transform(kw_only_default=True, field_specifiers=(Field, key))
 class Definition(BaseModel):
-    """Base of every definition: frozen, unknown keys rejected, file keys carry units."""
+    """Base of every definition: frozen, unknown keys rejected, file keys carry units.
+
+    A subclass that is declared with ``kw_only=False`` takes its own fields by position as well.
+    """
 
     model_config = ConfigDict(
-        frozen=True, extra="forbid", validate_by_name=True, validate_by_alias=True
+        frozen=True,
+        extra="forbid",
+        validate_by_name=True,
+        validate_by_alias=True,
+        serialize_by_alias=True,
     )
 
     source: str | None = Field(default=None, description="where the numbers come from")
 
+    _positional: ClassVar[tuple[str, ...]] = ()
 
-Kind = TypeVar("Kind", bound=Definition)
+    def __init_subclass__(cls, *, kw_only: bool = True, **settings: Any) -> None:
+        super().__init_subclass__(**settings)
+
+    @classmethod
+    def __pydantic_init_subclass__(cls, *, kw_only: bool = True, **settings: Any) -> None:
+        super().__pydantic_init_subclass__(**settings)
+        if not kw_only:
+            inherited = {name for base in cls.__bases__ for name in _fields(base)}
+            own = (
+                name
+                for name, field in cls.model_fields.items()
+                if name not in inherited and not field.kw_only
+            )
+            cls._positional = (*cls._positional, *own)
+        cls.__signature__ = _signature(cls.model_fields, cls._positional)
+
+    def __init__(self, *values: Any, **named: Any) -> None:
+        """Make and check a definition.
+
+        Raises
+        ------
+        InputError : a value that cannot be used, named by its field
+        """
+        called = type(self).__name__
+        if len(values) > len(self._positional):
+            raise TypeError(
+                f"{called}() takes {len(self._positional)} positional arguments, "
+                f"{len(values)} were given"
+            )
+        for name, value in zip(self._positional, values, strict=False):
+            if name in named:
+                raise TypeError(f"{called}() got two values for argument {name!r}")
+            named[name] = value
+        try:
+            self.__pydantic_validator__.validate_python(named, self_instance=self)
+        except ValidationError as error:
+            raise input_error(called, named, error, type(self), by_alias=False) from None
+
+    # Nested definitions are then made by pydantic itself, which keeps the path to a fault.
+    __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined]
+
+    def __str__(self) -> str:
+        return repr(self)
+
+    def __hash__(self) -> int:
+        return hash((type(self), *(_hashable(getattr(self, name)) for name in _fields(type(self)))))
+
+    def __repr_args__(self) -> Iterator[tuple[str, Any]]:
+        """What differs from its default, positional arguments first."""
+        fields = type(self).model_fields
+        for name in sorted(fields, key=lambda name: name not in self._positional):
+            value = getattr(self, name)
+            if value != fields[name].default:
+                yield name, _Brief(value)
+
+    def replace(self, **changes: Any) -> Self:
+        """A copy with some fields changed, checked like a new one.
+
+        Raises
+        ------
+        InputError : a value that cannot be used
+        """
+        kept = {name: getattr(self, name) for name in self.model_fields_set}
+        return type(self)(**(kept | changes))
+
+    @property
+    def content_hash(self) -> str:
+        """SHA-256 of all that is defined; files count by their content and not by their path.
+
+        Raises
+        ------
+        InputError : a file that cannot be read
+        """
+        text = json.dumps(_content(self), sort_keys=True, separators=(",", ":"))
+        return hashlib.sha256(text.encode()).hexdigest()
 
 
-def with_paths(definition: Kind, change: Callable[[Path], Path]) -> Kind:
-    """A copy with every path in it, at whatever depth, changed."""
-    changed = {}
-    for name in type(definition).model_fields:
-        old = new = getattr(definition, name)
-        if isinstance(old, Path):
-            new = change(old)
-        elif isinstance(old, Definition):
-            new = with_paths(old, change)
-        if new is not old:
-            changed[name] = new
-    return definition.model_copy(update=changed) if changed else definition
+_LONGEST = 160
+"""Characters of a field in the ``repr`` of a definition."""
+
+
+class _Brief:
+    """A value whose ``repr`` stays short and still tells it from another."""
+
+    def __init__(self, value: object) -> None:
+        self._value = value
+
+    def __repr__(self) -> str:
+        if isinstance(self._value, Path):
+            return f"<{self._value.name}>"
+        text = repr(self._value)
+        if len(text) <= _LONGEST:
+            return text
+        digest = hashlib.sha256(text.encode()).hexdigest()[:12]
+        size = f"{len(self._value)} in " if isinstance(self._value, tuple | dict | str) else ""
+        return f"<{size}{type(self._value).__name__}, SHA-256 {digest}>"
+
+
+def _signature(fields: dict[str, FieldInfo], positional: tuple[str, ...]) -> inspect.Signature:
+    """How a definition is called; pydantic would name fields as files do."""
+    parameters: list[inspect.Parameter] = []
+    needed = False  # a positional argument before one without a default has none itself
+    for name in reversed(positional):
+        needed = needed or fields[name].is_required()
+        kind: Any = inspect.Parameter.POSITIONAL_OR_KEYWORD
+        parameters.insert(0, _parameter(name, fields[name], kind, needed=needed))
+    for name, field in fields.items():
+        if name not in positional:
+            kind = inspect.Parameter.KEYWORD_ONLY
+            parameters.append(_parameter(name, field, kind, needed=field.is_required()))
+    return inspect.Signature(parameters)
+
+
+def _parameter(name: str, field: FieldInfo, kind: Any, *, needed: bool) -> inspect.Parameter:
+    default = inspect.Parameter.empty if needed else field.get_default(call_default_factory=True)
+    return inspect.Parameter(name, kind, default=default, annotation=field.annotation)
+
+
+def _fields(base: type) -> dict[str, Any]:
+    return base.model_fields if issubclass(base, BaseModel) else {}
+
+
+def _hashable(value: Any) -> Any:
+    if isinstance(value, dict):
+        return frozenset((name, _hashable(item)) for name, item in value.items())
+    return tuple(map(_hashable, value)) if isinstance(value, tuple | list) else value
+
+
+def _content(value: Any) -> Any:
+    """Plain data of a value, by the keys of files."""
+    if isinstance(value, Definition):
+        fields = type(value).model_fields
+        return {
+            field.serialization_alias or name: _content(getattr(value, name))
+            for name, field in fields.items()
+        }
+    if isinstance(value, Path):
+        return {"sha256": file_digest(value)}
+    if isinstance(value, tuple | list):
+        return [_content(item) for item in value]
+    if isinstance(value, dict):
+        return {str(name): _content(item) for name, item in value.items()}
+    return value
+
+
+def file_digest(path: Path) -> str:
+    """SHA-256 of a file's bytes.
+
+    Raises
+    ------
+    InputError : it cannot be read
+    """
+    try:
+        with path.open("rb") as file:
+            return hashlib.file_digest(file, "sha256").hexdigest()
+    except OSError as error:
+        reason = error.strerror or "unreadable"
+        raise InputError(str(path), reason, "a readable file", "Check the path.") from None

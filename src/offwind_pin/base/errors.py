@@ -1,10 +1,19 @@
-"""The project's errors: one small hierarchy, each message naming the mistake and the remedy."""
+"""The project's errors: one small hierarchy, each message naming the mistake and the remedy.
 
+All of them can be copied and pickled, so that a worker process hands them on as they are.
+"""
+
+from __future__ import annotations
+
+import pickle
 from typing import Any
 
 
 class OffwindError(Exception):
     """Base of every error this package raises on purpose."""
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restored, (type(self), self.args, self.__dict__)
 
 
 class InputError(OffwindError, ValueError):
@@ -12,6 +21,13 @@ class InputError(OffwindError, ValueError):
 
     The message names where it was found (file and field), what was received, what is allowed
     and what to do about it.
+
+    Attributes
+    ----------
+    where : str, file and field
+    received : object, the value, or a phrase that tells what is wrong
+    allowed : str, what could be there; empty where ``received`` is such a phrase
+    remedy : str, one sentence
     """
 
     def __init__(self, where: str, received: object, allowed: str, remedy: str) -> None:
@@ -19,7 +35,12 @@ class InputError(OffwindError, ValueError):
         self.received = received
         self.allowed = allowed
         self.remedy = remedy
-        super().__init__(f"{where}: got {_shorten(received)}; allowed: {allowed}. {remedy}")
+        fault = f"got {_shorten(received)}; allowed: {allowed}" if allowed else str(received)
+        super().__init__(f"{where}: {fault}. {remedy}")
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        state = self.__dict__ | {"received": _portable(self.received)}
+        return _restored, (type(self), self.args, state)
 
 
 class SolverError(OffwindError, RuntimeError):
@@ -68,6 +89,22 @@ class InterruptedSimulation(OffwindError):
         self.time = time
         self.results = results
         super().__init__(f"stopped by the user at t = {time:.6g} s")
+
+
+def _restored(kind: type[OffwindError], arguments: tuple[Any, ...], state: Any) -> OffwindError:
+    """An error with its message and fields, made without its own arguments."""
+    error = kind.__new__(kind, *arguments)
+    error.__dict__.update(state)
+    return error
+
+
+def _portable(value: object) -> object:
+    """The value, or its text where another process could not be given it."""
+    try:
+        pickle.dumps(value)
+    except Exception:  # whatever a foreign class raises
+        return repr(value)
+    return value
 
 
 def _shorten(value: object, limit: int = 240) -> str:

@@ -1,20 +1,30 @@
-"""Text files of numbers; every fault is told with its line."""
+"""Text files of numbers; errors name the line."""
 
 from __future__ import annotations
 
 import csv
 import math
+import re
+from collections.abc import Sequence
 from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
 
 from offwind_pin.base.errors import InputError
 
+_GAP = 5.0
+"""Times the median step, beyond which rows are missing."""
+_MANY = 20
+"""Steps from which on a file is sampled, and not a table of corners written by hand."""
+
 
 def read_text(path: Path) -> str:
-    """A user's text file, with or without a byte-order mark.
+    """A text file, with or without a byte-order mark.
 
     Raises
     ------
-    InputError : it is missing, cannot be read, or is no text
+    InputError : it is missing, cannot be read, or is not text
     """
     try:
         return path.read_text(encoding="utf-8-sig")
@@ -25,13 +35,13 @@ def read_text(path: Path) -> str:
 
 
 def read_numbers(path: Path, columns: tuple[str, ...]) -> list[tuple[int, tuple[float, ...]]]:
-    """Rows of numbers of a CSV file with a header, each with its line number.
+    """Rows of numbers from a CSV file with a header, each with its line number.
 
     Lines that start with ``#`` are comments.
 
     Raises
     ------
-    InputError : missing or empty file, wrong header, a cell that is no finite number
+    InputError : missing or empty file, wrong header, a cell that is not a finite number
     """
     header_seen = False
     rows = []
@@ -58,12 +68,92 @@ def read_numbers(path: Path, columns: tuple[str, ...]) -> list[tuple[int, tuple[
     return rows
 
 
-def to_numbers(path: Path, line: int, cells: list[str], count: int) -> tuple[float, ...]:
-    """Finite numbers out of the cells of one line.
+def read_time_columns(
+    path: Path, count: int, *, fewest: int = 2, header: bool = False
+) -> tuple[NDArray[np.float64], list[int], str]:
+    """Columns of numbers over time, the time first.
+
+    Columns are separated by blanks, tabs, commas or semicolons; ``#``, ``!`` and ``%`` start a
+    comment.
+
+    Parameters
+    ----------
+    count : number of columns, the time included
+    fewest : number of rows that the file must have
+    header : whether the first line may name the columns
+
+    Returns
+    -------
+    (n, count) numbers, the n line numbers, and the text of the file
 
     Raises
     ------
-    InputError : a wrong number of cells, or a cell that is no finite number
+    InputError : a missing, empty or short file; a cell that is not a finite number; times that do
+        not rise, or that leave a gap
+    """
+    text = read_text(path)
+    rows: list[tuple[float, ...]] = []
+    lines: list[int] = []
+    first = True
+    for line, raw in enumerate(text.splitlines(), 1):
+        data = re.split(r"[#!%]", raw, maxsplit=1)[0].strip()
+        if not data:
+            continue
+        cells = re.split(r"\s*[,;]\s*|\s+", data)
+        named = header and first and not any(_is_number(cell) for cell in cells)
+        first = False
+        if not named:
+            rows.append(to_numbers(path, line, cells, count))
+            lines.append(line)
+    if len(rows) < fewest:
+        allowed = f"{fewest} rows or more"
+        raise InputError(str(path), f"{len(rows)} rows", allowed, "Is the file complete?")
+    values = np.array(rows)
+    check_times(path, values[:, 0], lines, "line")
+    return values, lines, text
+
+
+def check_times(path: Path, time: NDArray[np.float64], place: Sequence[int], counted: str) -> None:
+    """Refuse times (t,) that do not rise, or that leave a gap in evenly sampled ones.
+
+    Parameters
+    ----------
+    place : (t,) where they are in the file, in what ``counted`` names
+
+    Raises
+    ------
+    InputError : with the place of the first fault
+    """
+    step = np.diff(time)
+    back = np.flatnonzero(~(step > 0))
+    if len(back):
+        i = int(back[0])
+        raise InputError(
+            f"{path}, {counted} {place[i + 1]}, column t",
+            float(time[i + 1]),
+            f"a time later than that of {counted} {place[i]} ({time[i]:g} s)",
+            "Sort the rows by time and remove repeated ones.",
+        )
+    if len(step) < _MANY:
+        return
+    usual = float(np.median(step))
+    gaps = np.flatnonzero(step > _GAP * usual)
+    if len(gaps):
+        i = int(gaps[0])
+        raise InputError(
+            f"{path}, {counted}s {place[i]} to {place[i + 1]}, column t",
+            f"a step of {step[i]:g} s ({len(gaps)} such)",
+            f"steps of about {usual:g} s, as elsewhere in the file",
+            "Are rows missing? Fill the gap, or shorten the file.",
+        )
+
+
+def to_numbers(path: Path, line: int, cells: list[str], count: int) -> tuple[float, ...]:
+    """Finite numbers from the cells of one line.
+
+    Raises
+    ------
+    InputError : a wrong number of cells, or a cell that is not a finite number
     """
     where = f"{path}, line {line}"
     if len(cells) != count:
@@ -80,3 +170,11 @@ def to_numbers(path: Path, line: int, cells: list[str], count: int) -> tuple[flo
             )
         values.append(value)
     return tuple(values)
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return True

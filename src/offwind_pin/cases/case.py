@@ -3,20 +3,24 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import AfterValidator, BeforeValidator, Field, ValidationInfo, model_validator
 
+from offwind_pin.analysis.build import build
 from offwind_pin.analysis.foundation.registry import FOUNDATIONS
-from offwind_pin.base.definition import Definition, NonNegative, Number, Positive
-from offwind_pin.cases.schema.earthquake import Earthquake
-from offwind_pin.cases.schema.sea import SeaChoice
+from offwind_pin.base.definition import Definition, NonNegative, Number, Positive, Seed, key
 from offwind_pin.cases.schema.tower_top import TowerTopLoadChoice
-from offwind_pin.cases.schema.tower_wind import TowerWindChoice
 from offwind_pin.cases.shipped import shipped_cases
 from offwind_pin.definitions.element import Element
 from offwind_pin.definitions.engine import Engine
-from offwind_pin.definitions.reader import find_definition, read_model
+from offwind_pin.definitions.reader import find_definition, load_turbine, read_definition
+from offwind_pin.definitions.turbine import Turbine
+from offwind_pin.dynamics.system import System
+from offwind_pin.loads.earthquake.earthquake import Earthquake
+from offwind_pin.loads.sea.sea import DrySea, Sea
+from offwind_pin.loads.sea.seas import SeaChoice
+from offwind_pin.loads.wind.tower_wind import TowerWind
 from offwind_pin.structure.chain import MOST_ELEMENTS
 
 
@@ -26,7 +30,17 @@ def _known_foundation(name: str) -> str:
     return name
 
 
+def _load_turbine(value: Any, info: ValidationInfo) -> Any:
+    """A turbine by shipped name or file; a relative path starts at the folder of the case file."""
+    if not isinstance(value, str | Path):
+        return value
+    local = Path((info.context or {}).get("folder", "")) / value
+    return load_turbine(local if local.is_file() else value)
+
+
 FoundationName = Annotated[str, AfterValidator(_known_foundation)]
+TurbineChoice = Annotated[Turbine, BeforeValidator(_load_turbine)]
+"""A turbine, or in a file also a shipped name or the path of a turbine file."""
 
 
 _COARSEST_OUTPUT = 0.3
@@ -44,7 +58,7 @@ class StaticAnalysis(Definition):
     kind: Literal["static"]
     engine: Engine = "compiled"
     compare_with: FoundationName | None = None
-    settle: Annotated[Positive, Field(ge=10, le=1e5)] | None = Field(alias="settle_s", default=None)
+    settle: Annotated[Positive, Field(ge=10, le=1e5)] | None = key("settle_s", default=None)
 
 
 class OperationalModesSettings(Definition):
@@ -56,8 +70,8 @@ class OperationalModesSettings(Definition):
     nodes : from the mudline to the yaw bearing
     """
 
-    duration: Annotated[Positive, Field(ge=600, le=1e5)] = Field(alias="duration_s")
-    segment: Annotated[Positive, Field(ge=20)] = Field(alias="segment_s")
+    duration: Annotated[Positive, Field(ge=600, le=1e5)] = key("duration_s")
+    segment: Annotated[Positive, Field(ge=20)] = key("segment_s")
     nodes: Annotated[int, Field(ge=3, le=60)] = 13
 
     @model_validator(mode="after")
@@ -91,11 +105,11 @@ class TransientAnalysis(Definition):
 
     kind: Literal["transient"]
     engine: Engine = "compiled"
-    duration: Annotated[Positive, Field(le=1e5)] = Field(alias="duration_s")
-    ramp: NonNegative = Field(alias="ramp_s")
-    dt: Annotated[Positive, Field(le=1)] = Field(alias="dt_s")
-    output_dt: Positive = Field(alias="output_dt_s")
-    psd_segment: Positive = Field(alias="psd_segment_s")
+    duration: Annotated[Positive, Field(le=1e5)] = key("duration_s")
+    ramp: NonNegative = key("ramp_s")
+    dt: Annotated[Positive, Field(le=1)] = key("dt_s")
+    output_dt: Positive = key("output_dt_s")
+    psd_segment: Positive = key("psd_segment_s")
 
     @model_validator(mode="after")
     def _window_holds_a_segment(self) -> TransientAnalysis:
@@ -135,29 +149,29 @@ class Case(Definition):
     name: Annotated[str, Field(pattern=r"^[A-Za-z0-9._-]+$")]
     title: str = ""
     description: str = ""
-    turbine: str
+    turbine: TurbineChoice
     foundation: FoundationName
     sea: SeaChoice
     tower_top_load: TowerTopLoadChoice | None = None
-    tower_wind: TowerWindChoice | None = None
+    tower_wind: TowerWind | None = None
     earthquake: Earthquake | None = None
     analysis: Annotated[
         StaticAnalysis | ModalAnalysis | TransientAnalysis, Field(discriminator="kind")
     ]
-    seed: Annotated[int, Field(ge=0, lt=2**31)] = 1
+    seed: Seed = 1
     elements: Annotated[int, Field(ge=1, le=MOST_ELEMENTS)] | dict[str, int] | None = None
     element: Element = "euler_bernoulli"
     published: tuple[PublishedValue, ...] = ()
 
     @model_validator(mode="after")
     def _loads_have_an_effect(self) -> Case:
-        if self.analysis.kind == "transient":
+        if isinstance(self.analysis, TransientAnalysis):
             return self
         loads = {
             "tower_top_load": self.tower_top_load is not None,
             "tower_wind": self.tower_wind is not None,
             "earthquake": self.earthquake is not None,
-            self.sea.kind: self.sea.has_waves,
+            self.sea.kind: isinstance(self.sea, Sea) and self.sea.has_waves,
         }
         given = [name for name, is_there in loads.items() if is_there]
         if given:
@@ -167,13 +181,35 @@ class Case(Definition):
             )
         return self
 
+    @property
+    def water(self) -> Sea | None:
+        """The sea with the case's seed and length; None for a dry structure."""
+        if isinstance(self.sea, DrySea):
+            return None
+        analysis = self.analysis
+        duration = analysis.duration if isinstance(analysis, TransientAnalysis) else 0.0
+        return self.sea.completed(self.seed, duration)
 
-def load_case(name_or_path: str | Path) -> tuple[Case, Path]:
-    """A case by shipped name or from a YAML file, and the folder its relative paths start from.
+    def build(self, foundation: str | None = None) -> System:
+        """The case's system, on its own foundation or on another.
+
+        Raises
+        ------
+        InputError : a part of the turbine or of the sea that cannot be used
+        """
+        name = self.foundation if foundation is None else foundation
+        elements = self.elements
+        if isinstance(elements, dict) and name != "distributed_springs":  # no pile to divide
+            elements = {region: count for region, count in elements.items() if region != "pile"}
+        return build(self.turbine, name, self.water, elements=elements, element=self.element)
+
+
+def load_case(name_or_path: str | Path) -> Case:
+    """A case by shipped name or from a YAML file; relative paths in it start at its folder.
 
     Raises
     ------
     InputError : the name is unknown, or the file cannot be read or understood
     """
     path = find_definition(name_or_path, shipped_cases(), "case")
-    return read_model(path, Case), path.parent
+    return read_definition(path, Case)

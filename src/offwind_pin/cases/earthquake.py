@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import logging
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -10,13 +12,16 @@ import xarray as xr
 
 from offwind_pin.analysis.modal import ModalResult
 from offwind_pin.base.definition import Array
-from offwind_pin.cases.schema.earthquake import Shaking
+from offwind_pin.loads.earthquake.earthquake import Earthquake
+from offwind_pin.loads.earthquake.ground_motion import GroundMotion, ground_motion_cautions
 from offwind_pin.loads.earthquake.records import AXES
 from offwind_pin.signal.response_spectrum import (
     arias_intensity,
     response_spectrum,
     significant_duration,
 )
+
+_log = logging.getLogger(__name__)
 
 PERIODS = np.geomspace(0.05, 10.0, 200)
 """s, of the response spectrum that is drawn."""
@@ -31,6 +36,49 @@ _PEAKS = {
     "peak_ground_acceleration": "m/s2",
 }
 _ORDINATES = {"displacement": "m", "pseudo_velocity": "m/s", "pseudo_acceleration": "m/s2"}
+
+
+@dataclass(frozen=True, eq=False)
+class Shaking:
+    """An earthquake that acts in a case.
+
+    Attributes
+    ----------
+    motion : of the ground
+    cautions : what looks wrong with it
+    gravity : in m/s2, for the Arias intensity
+    level : that is reported, the highest
+    """
+
+    motion: GroundMotion
+    cautions: list[str]
+    gravity: float
+
+    @staticmethod
+    def of(earthquake: Earthquake, gravity: float, dt: float, duration: float) -> Shaking:
+        """Read what a case asks for; cautions go to the log as well, by here and by the simulation.
+
+        Raises
+        ------
+        InputError : a record that cannot be used, or that begins after the end
+        """
+        motion, cautions = earthquake.ground_motion()
+        for caution in cautions:
+            _log.warning("earthquake: %s", caution)
+        cautions += ground_motion_cautions(motion, dt, duration)
+        return Shaking(motion, cautions, gravity)
+
+    @property
+    def step(self) -> float:
+        """Interval in s at which the record is looked at: its own, or its smallest."""
+        return float(np.min(np.diff(self.motion.time)))
+
+    @property
+    def sampled(self) -> Array:
+        """(n, 3, 3) displacement, velocity, acceleration of the highest level, evenly sampled."""
+        first, last = self.motion.time[[0, -1]]
+        count = max(2, 1 + round((last - first) / self.step))
+        return self.motion.motion(np.minimum(first + self.step * np.arange(count), last))[:, -1]
 
 
 def earthquake_dataset(shaking: Shaking, modes: ModalResult) -> xr.Dataset:

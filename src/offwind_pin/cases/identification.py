@@ -16,6 +16,7 @@ import xarray as xr
 from offwind_pin.analysis.modal import ModalResult
 from offwind_pin.analysis.simulate import simulate
 from offwind_pin.base.definition import Array
+from offwind_pin.base.seeds import random_stream
 from offwind_pin.cases.case import OperationalModesSettings
 from offwind_pin.definitions.engine import Engine
 from offwind_pin.dynamics.system import System
@@ -161,7 +162,7 @@ def _shaken(
     """Time history under white noise in Fx and My at the yaw bearing."""
     steps = round((SETTLING + duration) / STEP)
     load = np.zeros((steps + 1, 6))
-    noise = np.random.default_rng(seed).normal(size=(steps + 1, 2))
+    noise = random_stream(seed, "identification").normal(size=(steps + 1, 2))
     load[:, [0, 4]] = noise * [FORCE, MOMENT]
     time = np.linspace(0.0, steps * STEP, steps + 1)
     return simulate(

@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from offwind_pin.analysis.build import build
 from offwind_pin.analysis.drawing_data import (
     damping_dataset,
     modes_dataset,
@@ -35,17 +34,15 @@ from offwind_pin.cases.case import (
     TransientAnalysis,
     load_case,
 )
-from offwind_pin.cases.earthquake import earthquake_dataset
+from offwind_pin.cases.earthquake import Shaking, earthquake_dataset
 from offwind_pin.cases.identification import identify
 from offwind_pin.cases.output_directory import check_writable
 from offwind_pin.cases.report import report as render
-from offwind_pin.cases.schema.earthquake import Shaking
 from offwind_pin.cases.settling import settle
 from offwind_pin.cases.tower_top import tower_top, wind_dataset
 from offwind_pin.cases.tree_summary import summary, summary_head
-from offwind_pin.definitions.reader import load_turbine
-from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.dynamics.system import System
+from offwind_pin.loads.sea.sea import Sea
 from offwind_pin.results.blocks import time_reached
 from offwind_pin.results.dataset import versions
 from offwind_pin.results.reading import FILE, analysed, open_case
@@ -76,7 +73,6 @@ def run_case(
     case: Case | str | Path,
     out: Path | str,
     *,
-    folder: Path | str = "",
     report: bool = True,
     progress: Progress | None = None,
 ) -> dict[str, Any]:
@@ -89,7 +85,6 @@ def run_case(
     ----------
     case : a case, the name of a shipped one, or the path of a YAML file
     out : directory for the results, created if necessary
-    folder : where relative paths inside a :class:`Case` start
     report : whether to write ``report.html``; ``offwind report`` makes it later
     progress : called with simulated time and duration in s
 
@@ -102,20 +97,19 @@ def run_case(
     InputError : something in the case cannot be used
     SolverError, InterruptedSimulation : the solve stopped; the results so far are in ``out``
     """
-    out, folder = Path(out), Path(folder)
+    out = Path(out)
     check_writable(out)
     if not isinstance(case, Case):
-        case, folder = load_case(case)
-    turbine = _turbine(case, folder)
+        case = load_case(case)
     begun = time_reached(out)
     clock = time.perf_counter()
     system = None
     try:
-        system = _build(case, turbine, case.foundation, folder)
-        solved = _solve(case, turbine, system, folder, out, progress)
+        system = case.build()
+        solved = _solve(case, system, out, progress)
     except (SolverError, InterruptedSimulation) as stopped:
         wall = time.perf_counter() - clock
-        _write_stopped(case, turbine, system, out, stopped, wall, begun)
+        _write_stopped(case, system, out, stopped, wall, begun)
         raise
     wall = time.perf_counter() - clock
     # The summary is written last: where it exists, the other files belong to it.
@@ -123,7 +117,7 @@ def run_case(
     (out / "report.html").unlink(missing_ok=True)
     if solved.root is not None:
         write_netcdf(out / FILE, solved.root.assign_attrs(case=case.name))
-    account = _case_dataset(case, turbine, "complete", wall, solved.simulated, begun)
+    account = _case_dataset(case, "complete", wall, solved.simulated, begun)
     _add_groups(out / FILE, {"case": account, **_description(case, system), **solved.groups})
     with open_case(out) as tree:
         found = summary(tree)
@@ -133,33 +127,21 @@ def run_case(
     return found
 
 
-def _solve(
-    case: Case,
-    turbine: Turbine,
-    system: System,
-    folder: Path,
-    out: Path,
-    progress: Progress | None,
-) -> _Solved:
+def _solve(case: Case, system: System, out: Path, progress: Progress | None) -> _Solved:
     if isinstance(case.analysis, StaticAnalysis):
-        return _solve_static(case, turbine, system, case.analysis, folder, progress)
+        return _solve_static(case, system, case.analysis, progress)
     if isinstance(case.analysis, ModalAnalysis):
         return _solve_modes(case, system, case.analysis, progress)
-    return _solve_transient(case, turbine, system, case.analysis, folder, out, progress)
+    return _solve_transient(case, system, case.analysis, out, progress)
 
 
 def _solve_static(
-    case: Case,
-    turbine: Turbine,
-    system: System,
-    analysis: StaticAnalysis,
-    folder: Path,
-    progress: Progress | None,
+    case: Case, system: System, analysis: StaticAnalysis, progress: Progress | None
 ) -> _Solved:
     state = static(system, engine=analysis.engine)
     groups: Groups = {"soil": _soil(system, state)}
     if analysis.compare_with is not None:
-        other = _build(case, turbine, analysis.compare_with, folder)
+        other = case.build(analysis.compare_with)
         compared = static(other, engine=analysis.engine)
         groups[f"static/{analysis.compare_with}"] = static_dataset(other, compared)
     simulated = 0.0
@@ -189,19 +171,18 @@ def _solve_modes(
 
 def _solve_transient(
     case: Case,
-    turbine: Turbine,
     system: System,
     analysis: TransientAnalysis,
-    folder: Path,
     out: Path,
     progress: Progress | None,
 ) -> _Solved:
-    top = tower_top(case, turbine, analysis, folder)
+    turbine = case.turbine
+    top = tower_top(case, turbine, analysis)
     shaking = None
     if case.earthquake is not None:
         gravity = turbine.site.gravity
-        shaking = Shaking.of(case.earthquake, folder, gravity, analysis.dt, analysis.duration)
-    wind = [] if case.tower_wind is None else [tower_drag(system, case.tower_wind.wind())]
+        shaking = Shaking.of(case.earthquake, gravity, analysis.dt, analysis.duration)
+    wind = [] if case.tower_wind is None else [tower_drag(system, case.tower_wind)]
     data = simulate(
         system,
         analysis.duration,
@@ -218,7 +199,7 @@ def _solve_transient(
     with data:
         state = static(system, top.mean, loads=wind, engine=analysis.engine)
         result = modes(system, min(8, system.nv), state, engine=analysis.engine)
-        marked = _marked(case, result, top.blade_passing_frequency)
+        marked = _marked(system.sea, result, top.blade_passing_frequency)
         spectrum = moment_spectrum(data, analysis.psd_segment, marked)
         groups: Groups = {
             f"static/{case.foundation}": static_dataset(system, state),
@@ -250,21 +231,11 @@ def _soil(
     return soil_dataset(soil, system.turbine.site.mudline, reached)
 
 
-def _build(case: Case, turbine: Turbine, foundation: str, folder: Path) -> System:
-    """The case's system on a foundation; only distributed springs have a pile to divide."""
-    duration = case.analysis.duration if isinstance(case.analysis, TransientAnalysis) else 0.0
-    elements = case.elements
-    if isinstance(elements, dict) and foundation != "distributed_springs":
-        elements = {region: count for region, count in elements.items() if region != "pile"}
-    sea = case.sea.sea(case.seed, duration, folder)
-    return build(turbine, foundation, sea, elements=elements, element=case.element)
-
-
-def _marked(case: Case, result: ModalResult, passing: float | None) -> dict[str, float]:
+def _marked(sea: Sea | None, result: ModalResult, passing: float | None) -> dict[str, float]:
     """Frequencies in Hz that a reader looks for in the spectrum, by name."""
     marked = {}
-    if case.sea.marked_frequency is not None:
-        marked["wave"] = case.sea.marked_frequency
+    if sea is not None and sea.marked_frequency is not None:
+        marked["wave"] = sea.marked_frequency
     for label in ("FA1", "FA2"):
         if label in result.label:
             marked[label] = float(result.frequency_hz[result.index(label)])
@@ -284,12 +255,12 @@ def _description(case: Case, system: System) -> Groups:
 
 
 def _case_dataset(
-    case: Case, turbine: Turbine, status: str, wall: float, simulated: float, begun: float
+    case: Case, status: str, wall: float, simulated: float, begun: float
 ) -> xr.Dataset:
     """The definitions, and the account of the run; the run continued from ``begun`` seconds."""
     definitions = {
         "definition": json.dumps(case.model_dump(mode="json", by_alias=True)),
-        "turbine_definition": json.dumps(turbine.model_dump(mode="json", by_alias=True)),
+        "turbine_definition": json.dumps(case.turbine.model_dump(mode="json", by_alias=True)),
     }
     account = {
         "status": status,
@@ -340,7 +311,6 @@ def _add_groups(path: Path, groups: Groups) -> None:
 
 def _write_stopped(
     case: Case,
-    turbine: Turbine,
     system: System | None,
     out: Path,
     stopped: SolverError | InterruptedSimulation,
@@ -352,7 +322,7 @@ def _write_stopped(
     (out / "report.html").unlink(missing_ok=True)
     histories = stopped.results if isinstance(case.analysis, TransientAnalysis) else None
     reached = 0.0 if stopped.results is None else float(stopped.results["time"][-1])
-    account = _case_dataset(case, turbine, status, wall, reached, begun)
+    account = _case_dataset(case, status, wall, reached, begun)
     account.attrs["message"] = str(stopped)
     if histories is None or system is None:
         (out / FILE).unlink(missing_ok=True)
@@ -361,9 +331,3 @@ def _write_stopped(
         groups = {"case": account, **_description(case, system), "soil": soil}
         _add_groups(out / FILE, groups)
     write_json(out / "summary.json", summary_head(account.attrs))
-
-
-def _turbine(case: Case, folder: Path) -> Turbine:
-    """The case's turbine; a relative path starts at the case file."""
-    local = folder / case.turbine
-    return load_turbine(local if local.is_file() else case.turbine)

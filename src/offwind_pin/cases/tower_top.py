@@ -6,7 +6,6 @@ import json
 import logging
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -18,12 +17,7 @@ from offwind_pin.analysis.static import StaticResult
 from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError
 from offwind_pin.cases.case import Case, TransientAnalysis
-from offwind_pin.cases.schema.tower_top import (
-    LoadFile,
-    RotorLoad,
-    SyntheticTowerTopLoad,
-    TowerTopLoadFile,
-)
+from offwind_pin.cases.schema.tower_top import LoadFile, TowerTopLoadFile
 from offwind_pin.definitions.rotor_disc import rotor_disc
 from offwind_pin.definitions.turbine import RotorNacelleRNA, Turbine
 from offwind_pin.dynamics.system import System
@@ -41,7 +35,7 @@ from offwind_pin.formats.openfast.yaw_bearing_load import (
     weight_at_yaw_bearing,
 )
 from offwind_pin.loads.tower_top.load_history import LoadHistory, read_load_history
-from offwind_pin.loads.wind.rotor_effective_wind import RotorWind
+from offwind_pin.loads.wind.rotor_load import RotorLoad
 from offwind_pin.loads.wind.rotor_thrust import RotorThrust
 from offwind_pin.loads.wind.synthetic_thrust import AIR_DENSITY, SyntheticWind, operate_rotor
 from offwind_pin.loads.wind.thrust_table import ThrustTable, inflow_time
@@ -188,9 +182,9 @@ def summarise_tower_top(load: xr.Dataset | None, rotor: xr.Dataset | None) -> di
 def wind_dataset(case: Case, turbine: Turbine) -> xr.Dataset | None:
     """As :func:`synthetic_dataset`, of a case; None for another load."""
     load = case.tower_top_load
-    if not isinstance(load, SyntheticTowerTopLoad):
+    if not isinstance(load, SyntheticWind):
         return None
-    return synthetic_dataset(generator(case, load), rotor_of(turbine))
+    return synthetic_dataset(load.completed(case.seed), rotor_of(turbine))
 
 
 def synthetic_dataset(made: SyntheticWind, rna: RotorNacelleRNA) -> xr.Dataset:
@@ -222,14 +216,12 @@ def synthetic_dataset(made: SyntheticWind, rna: RotorNacelleRNA) -> xr.Dataset:
             for name, (value, text, unit) in scalars.items()
         }
         | {"harmonics": ("harmonic", np.array(made.harmonics), about)},
-        attrs={"seed": made.seed, "blades": rna.blades, "surrogate": made.surrogate},
+        attrs={"seed": made.wind_seed, "blades": rna.blades, "surrogate": made.surrogate},
     )
 
 
-def tower_top(case: Case, turbine: Turbine, analysis: TransientAnalysis, folder: Path) -> TowerTop:
+def tower_top(case: Case, turbine: Turbine, analysis: TransientAnalysis) -> TowerTop:
     """What acts at the tower top in a case.
-
-    folder : where relative paths start
 
     Raises
     ------
@@ -241,8 +233,8 @@ def tower_top(case: Case, turbine: Turbine, analysis: TransientAnalysis, folder:
     if isinstance(load, RotorLoad):
         return _rotor(case, load, turbine, analysis)
     if isinstance(load, TowerTopLoadFile):
-        return _files(load, turbine, analysis, folder)
-    history = generator(case, load).generate(
+        return _files(load, turbine, analysis)
+    history = load.completed(case.seed).generate(
         rotor_of(turbine),
         duration=analysis.duration,
         repeat_period=analysis.duration - analysis.ramp,
@@ -253,26 +245,21 @@ def tower_top(case: Case, turbine: Turbine, analysis: TransientAnalysis, folder:
 
 def _rotor(case: Case, load: RotorLoad, turbine: Turbine, analysis: TransientAnalysis) -> TowerTop:
     disc = rotor_disc(turbine)
-    settings = RotorWind(
-        load.wind_speed, load.intensity, load.shear_exponent, load.tower_shadow, seed=case.seed
-    )
+    settings = load.completed(case.seed)
     wind = settings.generate(disc, repeat_period=analysis.duration - analysis.ramp)
     thrust = RotorThrust(disc, wind, load.control, load.control_time, load.inflow_lag)
     passing = settings.of_rotor(disc).blade_passing_frequency
     return TowerTop(thrust, thrust.steady_load(), passing)
 
 
-def _files(
-    load: TowerTopLoadFile, turbine: Turbine, analysis: TransientAnalysis, folder: Path
-) -> TowerTop:
+def _files(load: TowerTopLoadFile, turbine: Turbine, analysis: TransientAnalysis) -> TowerTop:
     histories, cautions = [], []
     gravity = turbine.site.gravity
     for entry in load.entries:
-        path = folder / entry.file
         if load.reads_openfast(entry):
-            read = _read_openfast(entry, turbine, path)
+            read = _read_openfast(entry, turbine)
         else:
-            read = read_load_history(path)
+            read = read_load_history(entry.file)
         weight = weight_at_yaw_bearing(turbine.rna, gravity) if entry.subtract_weight else None
         history = changed(read, entry.factor, entry.shift, weight)
         cautions += load_cautions(history, turbine.rna, gravity)
@@ -288,8 +275,8 @@ def _files(
     return TowerTop(history, mean, None, notes, cautions)
 
 
-def _read_openfast(entry: LoadFile, turbine: Turbine, path: Path) -> LoadHistory:
-    output = read_openfast_output(path)
+def _read_openfast(entry: LoadFile, turbine: Turbine) -> LoadHistory:
+    output = read_openfast_output(entry.file)
     channels: Mapping[Any, str] | None = entry.channels
     if entry.frame == "yaw_bearing":
         return from_channels(output, channels or YAW_BEARING)
@@ -297,13 +284,6 @@ def _read_openfast(entry: LoadFile, turbine: Turbine, path: Path) -> LoadHistory
     if azimuth is None and entry.channels is None:
         azimuth = AZIMUTH
     return from_rotor_apex(output, channels or ROTOR_APEX, azimuth, rotor_of(turbine))
-
-
-def generator(case: Case, load: SyntheticTowerTopLoad) -> SyntheticWind:
-    """The synthetic load of a case."""
-    return SyntheticWind(
-        load.wind_speed, load.blade_passing_frequency, load.turbulence_intensity, seed=case.seed
-    )
 
 
 def rotor_of(turbine: Turbine) -> RotorNacelleRNA:

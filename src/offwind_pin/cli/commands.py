@@ -235,9 +235,9 @@ def run(
     from offwind_pin.cli.progress import simulation_progress
     from offwind_pin.cli.tables import print_values
 
-    definition, folder = load_case(case)
+    definition = load_case(case)
     with simulation_progress() as progress:
-        summary = run_case(definition, out, folder=folder, report=report, progress=progress)
+        summary = run_case(definition, out, report=report, progress=progress)
     if as_json:
         _print_json(summary)
         return

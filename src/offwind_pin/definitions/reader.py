@@ -1,4 +1,4 @@
-"""Reading of YAML definitions; errors name file, field, value, what is allowed, remedy."""
+"""Reading of YAML definitions; errors name file, field, value, what is allowed and the remedy."""
 
 from __future__ import annotations
 
@@ -8,16 +8,15 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 import yaml
-from pydantic import BaseModel, ValidationError
-from pydantic_core import ErrorDetails
+from pydantic import ValidationError
 
-from offwind_pin.base.definition import with_paths
+from offwind_pin.base.definition import Definition
 from offwind_pin.base.errors import InputError
+from offwind_pin.base.validation import input_error
 from offwind_pin.definitions.shipped import shipped_turbines
 from offwind_pin.definitions.turbine import Turbine
 
-Model = TypeVar("Model", bound=BaseModel)
-Schema = dict[str, Any]
+Kind = TypeVar("Kind", bound=Definition)
 
 
 def load_turbine(name_or_path: str | Path) -> Turbine:
@@ -32,8 +31,7 @@ def load_turbine(name_or_path: str | Path) -> Turbine:
     InputError : the name is unknown, or the file cannot be read or understood
     """
     path = find_definition(name_or_path, shipped_turbines(), "turbine")
-    turbine = read_model(path, Turbine)
-    return with_paths(turbine, lambda file: (path.parent / file).absolute())
+    return read_definition(path, Turbine)
 
 
 def find_definition(name_or_path: str | Path, shipped: list[str], kind: str) -> Path:
@@ -53,18 +51,18 @@ def find_definition(name_or_path: str | Path, shipped: list[str], kind: str) -> 
     )
 
 
-def read_model(path: Path, model: type[Model]) -> Model:
-    """A pydantic model from a YAML file.
+def read_definition(path: Path, kind: type[Kind]) -> Kind:
+    """A definition from a YAML file; relative paths in it start at its folder.
 
     Raises
     ------
-    InputError : the file is empty, not YAML, or does not fit the model
+    InputError : the file is empty, not YAML, or does not fit the definition
     """
     data = _read_yaml(path)
     try:
-        return model.model_validate(data)
+        return kind.model_validate(data, context={"folder": path.parent})
     except ValidationError as error:
-        raise _input_error(path, data, error, model) from None
+        raise input_error(str(path), data, error, kind, by_alias=True) from None
 
 
 class _UniqueKeyLoader(yaml.SafeLoader):
@@ -113,128 +111,3 @@ def _read_yaml(path: Path) -> dict[str, Any]:
             str(path), data, "a YAML mapping of keys to values", "Start from a shipped file."
         )
     return data
-
-
-def _input_error(
-    path: Path, data: object, error: ValidationError, model: type[BaseModel]
-) -> InputError:
-    """The first thing pydantic found wrong, told to a person."""
-    found = sorted(error.errors(), key=lambda item: item["type"] != "extra_forbidden")
-    first = found[0]
-    location = _typed(first, data)
-    field = ".".join(str(part) for part in location) or "the file"
-    others = [
-        ".".join(map(str, place))
-        for place in (_typed(item, data) for item in found[1:])
-        if place != location  # another alternative for the same value
-    ]
-    more = f" (More to mend in this file: {_enumerate(others)}.)" if others else ""
-    where = f"{path}, field {field}"
-    if first["type"] == "extra_forbidden":
-        known = _known_keys(model, location[:-1], data)
-        near = difflib.get_close_matches(str(location[-1]), known, n=1, cutoff=0.5)
-        remedy = f"Did you mean {near[0]!r}?" if near else "Remove it."
-        return InputError(where, "an unknown key", ", ".join(known), remedy + more)
-    if first["type"] == "missing":
-        return InputError(where, "nothing", "a value (the field is required)", "Add it." + more)
-    message = first["msg"].removeprefix("Value error, ")
-    if first["type"] == "value_error":
-        fault, _, remedy = message.partition("; ")
-        return InputError(where, fault, "parts that fit together", _sentence(remedy) + more)
-    context = first.get("ctx", {})
-    if first["type"].startswith("union_tag"):
-        where += f".{str(context['discriminator']).strip(chr(39))}"
-        received = context.get("tag", "nothing")
-        allowed = context.get("expected_tags", "a kind").replace("'", "")
-        return InputError(where, received, allowed, "Choose one of them." + more)
-    remedy = "Check the unit named in the key." if {"ge", "gt", "le", "lt"} & set(context) else ""
-    alternatives = [item["msg"] for item in found if _typed(item, data) == location]
-    allowed = ", or: ".join(dict.fromkeys([message, *alternatives]))
-    return InputError(where, first["input"], allowed, (remedy or "Correct the value.") + more)
-
-
-def _sentence(remedy: str) -> str:
-    return f"{remedy[:1].upper()}{remedy[1:]}." if remedy else "Correct it."
-
-
-def _enumerate(places: list[str], most: int = 5) -> str:
-    shown = list(dict.fromkeys(places))
-    rest = f" and {len(shown) - most} more" if len(shown) > most else ""
-    return ", ".join(shown[:most]) + rest
-
-
-def _typed(error: ErrorDetails, data: object) -> tuple[int | str, ...]:
-    """Place of an error without the tags pydantic puts in for the chosen member of a union.
-
-    No user typed them. A missing key, the last part of its place, is not in the data either.
-    """
-    location = error["loc"]
-    end = len(location) - (error["type"] == "missing")
-    kept: list[int | str] = []
-    entered = False
-    for i, part in enumerate(location):
-        if entered and isinstance(data, dict) and part in (data.get("kind"), data.get("model")):
-            entered = False
-            continue
-        absent = not isinstance(data, dict | list) or (isinstance(data, dict) and part not in data)
-        if absent and i < end:
-            continue
-        kept.append(part)
-        if (isinstance(data, dict) and part in data) or (
-            isinstance(data, list) and isinstance(part, int) and part < len(data)
-        ):
-            data = data[part]  # type: ignore[index]
-            entered = True
-    return tuple(kept)
-
-
-def _known_keys(model: type[BaseModel], location: tuple[int | str, ...], data: object) -> list[str]:
-    """Keys that are accepted at a place of a definition.
-
-    Of a union they are those of the member that the data choose by its kind, else of every member.
-    """
-    schema = model.model_json_schema(by_alias=True)
-    nodes = [schema]
-    for part in location:
-        nodes = [below for node in nodes for below in _below(schema, node, part, data)]
-        try:
-            data = data[part]  # type: ignore[index]
-        except (KeyError, IndexError, TypeError):
-            data = None
-    return sorted(
-        {
-            name
-            for node in nodes
-            for choice in _choices(schema, node, data)
-            for name in choice["properties"]
-        }
-    )
-
-
-def _below(schema: Schema, node: Schema, part: int | str, data: object) -> list[Schema]:
-    """The schemas of an item or a key."""
-    if isinstance(part, int):
-        return [choice["items"] for choice in _choices(schema, node, data, "items")]
-    named = _choices(schema, node, data, "additionalProperties")
-    return [
-        choice["properties"][part]
-        for choice in _choices(schema, node, data)
-        if part in choice["properties"]
-    ] + [choice["additionalProperties"] for choice in named if choice["additionalProperties"]]
-
-
-def _choices(
-    schema: Schema, node: Schema, data: object, having: str = "properties"
-) -> list[Schema]:
-    """A schema with its references and unions resolved, those alternatives that have a key."""
-    if "$ref" in node:
-        whole = schema["$defs"][node["$ref"].rsplit("/", 1)[-1]]
-        return _choices(schema, whole, data, having)
-    if "discriminator" in node and isinstance(data, dict):
-        kinds = node["discriminator"]
-        chosen = kinds["mapping"].get(data.get(kinds["propertyName"]))
-        if chosen is not None:
-            return _choices(schema, {"$ref": chosen}, data, having)
-    alternatives = node.get("anyOf", []) + node.get("oneOf", [])
-    found = [choice for below in alternatives for choice in _choices(schema, below, data, having)]
-    return [*found, node] if having in node else found

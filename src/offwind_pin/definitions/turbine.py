@@ -15,8 +15,10 @@ from pydantic import Field, model_validator
 
 from offwind_pin.base.definition import Definition, NonNegative, Number, Positive, Vector3
 from offwind_pin.base.descriptions import html_table
+from offwind_pin.base.errors import InputError
 from offwind_pin.definitions.hydrodynamics import Height, Hydrodynamics
 from offwind_pin.definitions.rotor import GEOMETRY, Rotor
+from offwind_pin.definitions.section import Section
 from offwind_pin.definitions.soil.springs import Soil
 from offwind_pin.definitions.tuned_mass_damper import TunedMassDamper
 
@@ -346,6 +348,34 @@ class Turbine(Definition):
         )
         masses = (*self.point_masses, *locked)
         return self.model_copy(update={"point_masses": masses, "tuned_mass_dampers": ()})
+
+    def section(self, z: float, side: Literal["above", "below"] = "above") -> Section:
+        """Section of the structure at a height; between stations its dimensions are linear.
+
+        Parameters
+        ----------
+        z : float, m, from the toe to the yaw bearing
+        side : whose section counts where two members of different sections meet
+
+        Raises
+        ------
+        InputError : a height off the structure, or an unknown side
+        """
+        if not self.toe <= z <= self.yaw_bearing:
+            raise InputError(
+                f"turbine {self.name}, section, z",
+                z,
+                f"{self.toe:g} to {self.yaw_bearing:g} m, from the toe to the yaw bearing",
+                "Heights are above still water level.",
+            )
+        if side not in ("above", "below"):
+            raise InputError("section, side", side, "above or below", "Choose one.")
+        touching = [member for member in self.members if member.bottom <= z <= member.top]
+        member = touching[-1 if side == "above" else 0]
+        heights = [station.z for station in member.stations]
+        diameter = float(np.interp(z, heights, [s.diameter for s in member.stations]))
+        thickness = float(np.interp(z, heights, [s.thickness for s in member.stations]))
+        return Section(float(z), member.name, member.material, diameter, thickness)
 
     @property
     def toe(self) -> float:

@@ -8,13 +8,10 @@ import numpy as np
 
 from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError
-from offwind_pin.dynamics.base_excitation import Grounding, check_reach, is_soil
+from offwind_pin.dynamics.base_excitation import Grounding, check_reach
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.earthquake.ground_motion import GroundMotion
-from offwind_pin.loads.point_load import (
-    KernelLoad,
-    PointLoad,
-)
+from offwind_pin.loads.point_load import KernelLoad, PointLoad
 from offwind_pin.loads.root_restraint import KernelRestraint
 
 _REACH = 20.0
@@ -31,19 +28,18 @@ def grounding(system: System, loads: Sequence[PointLoad], motion: GroundMotion |
     height = np.concatenate([np.zeros(0), *(load.height for load in loads)])
     if motion is None:
         return Grounding.nowhere(len(height))
-    chain, soil = system.chain, system.foundation.soil
+    chain = system.chain
     check_reach(motion, chain.base, system.turbine.site.mudline)
-    meets = [np.full(len(load.height), is_soil(load, soil)) for load in loads]
+    meets = [np.full(len(load.height), load.moves_with_ground) for load in loads]
     everywhere = np.append(height, chain.base)
     return Grounding.of(motion, everywhere, np.concatenate([*meets, [True]]))
 
 
 def split_memory(
-    loads: Sequence[PointLoad], root: KernelRestraint, memory: Array | None
+    loads: Sequence[KernelLoad], root: KernelRestraint, memory: Array | None
 ) -> list[Array]:
     """What each load and, last, the root keep of their past; nothing happened unless given."""
-    sizes = [load.memory_size if isinstance(load, KernelLoad) else 0 for load in loads]
-    sizes.append(root.memory_size)
+    sizes = [*(load.memory_size for load in loads), root.memory_size]
     whole = np.zeros(sum(sizes)) if memory is None else memory
     return np.split(whole, np.cumsum(sizes)[:-1])
 
@@ -53,8 +49,16 @@ def all_loads(system: System, loads: Sequence[PointLoad]) -> list[PointLoad]:
 
     Raises
     ------
-    InputError : a load beside the structure
+    InputError : a load beside the structure, or something that is no load
     """
+    for given in loads:
+        if not isinstance(given, PointLoad):
+            raise InputError(
+                "loads",
+                type(given).__name__,
+                "loads derived from PointLoad",
+                "Derive the class of your own load from offwind_pin.PointLoad.",
+            )
     water = [] if system.waters is None else system.waters.loads()
     everything: list[PointLoad] = [*water, *system.foundation.soil, *loads]
     for load in everything:
@@ -70,9 +74,19 @@ def all_loads(system: System, loads: Sequence[PointLoad]) -> list[PointLoad]:
     return everything
 
 
-def smooth_ramp(time: Array, duration: float) -> Array:
-    """(t,) half a cosine from 0 at time 0 to 1 at the end of the ramp."""
+def compiled_loads(loads: Sequence[PointLoad]) -> list[KernelLoad]:
+    """All loads as compiled code sees them, part by part."""
+    return [part for load in loads for part in load.compiled()]
+
+
+def smooth_ramp(time: Array, duration: float | None) -> Array:
+    """(t,) half a cosine from 0 at time 0 to 1 at the end of the ramp.
+
+    duration : in s; None for the means of the loads alone, for statics and modes
+    """
     time = np.asarray(time, dtype=float)
+    if duration is None:
+        return np.zeros_like(time)
     if duration == 0:
         return np.ones_like(time)
     return 0.5 * (1 - np.cos(np.pi * np.clip(time / duration, 0.0, 1.0)))

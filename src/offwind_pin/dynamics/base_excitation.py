@@ -10,9 +10,6 @@ from numpy.typing import NDArray
 from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError
 from offwind_pin.loads.earthquake.ground_motion import GroundMotion
-from offwind_pin.loads.point_load import (
-    PointLoad,
-)
 from offwind_pin.structure.chain import NDArrayInt
 
 
@@ -60,11 +57,6 @@ def between_levels(motion: GroundMotion, height: Array) -> tuple[NDArrayInt, Arr
     level = np.clip(np.searchsorted(levels, height, side="right") - 1, 0, len(levels) - 2)
     share = (height - levels[level]) / (levels[level + 1] - levels[level])
     return level, np.clip(share, 0.0, 1.0)
-
-
-def is_soil(load: PointLoad, soil: tuple[PointLoad, ...]) -> bool:
-    """Whether a load belongs to the foundation's soil, which moves with the ground."""
-    return any(load is other for other in soil)
 
 
 _NEARNESS = 1e-6

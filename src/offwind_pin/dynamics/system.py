@@ -12,7 +12,7 @@ from offwind_pin.base.descriptions import html_table
 from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.loads.earthquake.ground_motion import GroundMotion
 from offwind_pin.loads.point_load import PointLoad
-from offwind_pin.loads.sea.hydrodynamic_loads import Waters
+from offwind_pin.loads.sea.hydrodynamic_loads import HydrodynamicModel
 from offwind_pin.loads.sea.sea import Sea
 from offwind_pin.loads.soil.foundation import Foundation
 from offwind_pin.structure.chain import Chain
@@ -92,9 +92,9 @@ class System:
         return {k: v for k, v in vars(self).items() if k not in {"pin_model", "scratch"}}
 
     @cached_property
-    def waters(self) -> Waters | None:
+    def waters(self) -> HydrodynamicModel | None:
         """The sea as the structure meets it, realised once; None for a dry structure."""
-        return None if self.sea is None else Waters.of(self.turbine, self.sea)
+        return None if self.sea is None else HydrodynamicModel.of(self.turbine, self.sea)
 
     def with_damping(self, joint_damping: Array, ratios: dict[str, float]) -> System:
         """The same system with other joint dampers."""
@@ -103,14 +103,14 @@ class System:
     def equations(
         self,
         loads: Sequence[PointLoad] = (),
-        ramp_time: float = 0.0,
+        ramp_time: float | None = 0.0,
         memory: Array | None = None,
         ground_motion: GroundMotion | None = None,
     ) -> Equations:
         """Equations of motion under loads, by Pinocchio.
 
-        ramp_time : seconds over which waves, and the loads' departures from their means, rise; an
-            infinite one keeps them away, as for statics and modes
+        ramp_time : seconds over which waves, and the loads' departures from their means, rise; None
+            for the means alone, as in statics and modes
         memory : (m,) what soil and foundation keep of their past, as in :class:`StaticResult`
         ground_motion : of the ground below; root joints then move relative to it
         """

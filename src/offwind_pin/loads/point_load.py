@@ -1,4 +1,8 @@
-"""What a load sees and what it gives: motion of points on the axis in, forces and tangents out.
+"""The contract of loads: motion of points on the axis in, forces and tangents out.
+
+A load also says what it moves with, what acts in the mean, which channels it adds to results, where
+its numbers come from, and a hash of everything that determines its forces. Whatever uses loads asks
+them, and knows no kind of load by itself.
 
 Everything is in the inertial frame: x downwind, y left looking downwind, z up.
 """
@@ -6,14 +10,17 @@ Everything is in the inertial frame: x downwind, y left looking downwind, z up.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, ClassVar, Protocol
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 from numba import types
+from numpy.typing import NDArray
 
 from offwind_pin.base.definition import Array
 from offwind_pin.base.descriptions import one_line
+from offwind_pin.base.fingerprint import content_hash
 from offwind_pin.base.kernels import ExchangeableKernel, exchangeable
 
 POSITION, DISPLACEMENT, VELOCITY, AXIS, ACCELERATION, TURN, SPIN = (
@@ -29,16 +36,16 @@ _MATRIX = types.float64[:, ::1]
 _ROW = types.float64[::1]
 
 force_kernel = exchangeable(types.float64(_MATRIX, _MATRIX, _ROW, _ROW, _MATRIX))
-"""Decorator for ``kernel(motion, constants, row, memory, force) -> power``.
+"""Decorator for ``kernel(motion, constants, time_inputs, memory, force) -> dissipated_power``.
 
-motion (n, 21) of the points; constants (n, c) of the load; row (w,) whatever depends on time;
-memory (m,) what the load keeps of its past, as of the last step; force (n, 6) is set to force and
-moment in N and N m. Returned is the power in W that the load turns into heat as it moves, zero for
-a load that does not dissipate, or does so from step to step.
+motion (n, 21) of the points; constants (n, c) of the load; time_inputs (w,) whatever depends on
+time; memory (m,) what the load keeps of its past, as of the last step; force (n, 6) is set to force
+and moment in N and N m. Returned is the power in W that the load dissipates, zero for a load that
+does not, or does so from step to step.
 """
 
 tangent_kernel = exchangeable(types.void(_MATRIX, _MATRIX, _ROW, _ROW, types.float64[:, :, :, ::1]))
-"""Decorator for ``kernel(motion, constants, row, memory, blocks)``.
+"""Decorator for ``kernel(motion, constants, time_inputs, memory, blocks)``.
 
 blocks (n, 7, 3, 3), zero at the start, is set to the derivatives of the force by position,
 velocity, acceleration and axis, and of the moment by position, turn and spin.
@@ -48,10 +55,10 @@ energy_kernel = exchangeable(types.float64(_MATRIX, _MATRIX, _ROW))
 """Decorator for ``kernel(motion, constants, memory) -> energy``, that the load stores, in J."""
 
 commit_kernel = exchangeable(types.float64(_MATRIX, _MATRIX, _ROW, _ROW))
-"""Decorator for ``kernel(motion, constants, row, memory) -> heat``.
+"""Decorator for ``kernel(motion, constants, time_inputs, memory) -> dissipated_energy``.
 
-It ends a step: the memory becomes that of the motion and of the row at the step's end, and what
-that turned into heat is returned in J.
+It ends a step: the memory becomes that of the motion and of the time inputs at the step's end, and
+the energy in J that the step dissipated is returned.
 """
 
 
@@ -62,13 +69,15 @@ def nothing_stored(motion: Array, constants: Array, memory: Array) -> float:
 
 
 @commit_kernel
-def nothing_kept(motion: Array, constants: Array, row: Array, memory: Array) -> float:
+def nothing_kept(motion: Array, constants: Array, time_inputs: Array, memory: Array) -> float:
     """Of a load without memory."""
     return 0.0
 
 
 @tangent_kernel
-def no_tangents(motion: Array, constants: Array, row: Array, memory: Array, blocks: Array) -> None:
+def no_tangents(
+    motion: Array, constants: Array, time_inputs: Array, memory: Array, blocks: Array
+) -> None:
     """Of a load that depends on time alone."""
 
 
@@ -79,7 +88,7 @@ class PointMotion:
     Attributes
     ----------
     position : (n, 3) in m
-    displacement : (n, 3) from the undeformed place, in m
+    displacement : (n, 3) from the undeformed position, in m
     velocity : (n, 3) in m/s
     axis : (n, 3) unit vectors along the deflected axis, upwards
     acceleration : (n, 3) in m/s2, at rest unless given
@@ -98,7 +107,7 @@ class PointMotion:
 
     __repr__ = one_line
 
-    def __getitem__(self, part: slice) -> PointMotion:
+    def __getitem__(self, part: slice | NDArray[np.intp]) -> PointMotion:
         given = {item.name: getattr(self, item.name) for item in fields(self)}
         return PointMotion(**{k: value[part] for k, value in given.items() if value is not None})
 
@@ -112,7 +121,7 @@ class PointMotion:
 class PointForces:
     """Forces (n, 3) in N on the structure at the points, and moments (n, 3) in N m.
 
-    dissipation : power in W that the load turns into heat
+    dissipation : power in W that the load dissipates
     """
 
     force: Array
@@ -154,48 +163,117 @@ class PointTangents:
         return np.stack(whole, axis=1)
 
 
-class PointLoad(Protocol):
-    """A load on points of the axis; it knows nothing of joints.
+@dataclass(frozen=True)
+class Channel:
+    """A quantity over time that a load adds to the results.
 
-    ``rise`` runs from 0 to 1 while a simulation starts: at 0 only the mean of a load acts.
+    Attributes
+    ----------
+    name : in the dataset; what several loads give by one name is summed
+    dims : dimensions after ``time``: none, ``("component",)`` for Fx to Mz, or ``("direction",)``
+        for x, y, z
+    units, long_name : attributes of the channel
     """
 
-    @property
-    def name(self) -> str:
-        """Short name, unique in a system."""
+    name: str
+    dims: tuple[str, ...]
+    units: str
+    long_name: str
 
-    @property
-    def height(self) -> Array:
-        """(n,) undeformed heights of the points in m."""
 
-    def forces(self, time: float, motion: PointMotion, rise: float) -> PointForces:
+class PointLoad(ABC):
+    """A load on points of the axis; it knows nothing of joints.
+
+    Base class of the package's loads and of a user's own, which must have a ``name``, ``height``,
+    :meth:`forces` and :meth:`tangents`. The ``ramp_factor`` runs from 0 to 1 at the start of a
+    simulation: at 0 only the mean of a load acts, as in statics and modes.
+    """
+
+    moves_with_ground: ClassVar[bool] = False
+    """Whether displacements and velocities are relative to the ground in an earthquake, as those of
+    the soil are; its forces are recorded as ``soil_force``."""
+    if TYPE_CHECKING:  # fields or properties of the loads themselves
+
+        @property
+        def name(self) -> str:
+            """Short name, unique in a system."""
+
+        @property
+        def height(self) -> Array:
+            """(n,) undeformed heights of the points in m."""
+
+    @abstractmethod
+    def forces(self, time: float, motion: PointMotion, ramp_factor: float) -> PointForces:
         """Forces and moments on the structure."""
 
-    def tangents(self, time: float, motion: PointMotion, rise: float) -> PointTangents:
+    @abstractmethod
+    def tangents(self, time: float, motion: PointMotion, ramp_factor: float) -> PointTangents:
         """Exact derivatives of the forces."""
 
+    def compiled(self) -> tuple[KernelLoad, ...]:
+        """The load for compiled code: one part or more, which have its points among them."""
+        from offwind_pin.loads.python_load import PythonLoad
 
-class KernelLoad(ABC):
-    """A point load whose physics is in compiled kernels; what depends on time is in rows.
+        return (PythonLoad(self),)
+
+    @property
+    def surrogate(self) -> str | None:
+        """Why its numbers stand in for others, or None."""
+        return None
+
+    @property
+    def channels(self) -> tuple[Channel, ...]:
+        """What :meth:`outputs` gives."""
+        return ()
+
+    def outputs(self, time: Array, ramp_factor: Array) -> dict[str, Array]:
+        """Values (t, ...) of the channels at times (t,) in s, with ramp factors (t,)."""
+        return {}
+
+    def attributes(self) -> dict[str, str]:
+        """Where the load comes from, for the attributes of the results."""
+        return {}
+
+    def fingerprint(self) -> str:
+        """Hash of everything that determines the forces.
+
+        A stopped simulation goes on only under loads with the same ones. By default it is that of
+        the source of the class and of the values of its attributes.
+
+        Raises
+        ------
+        NoFingerprintError : an attribute that cannot be hashed; the class must then say what counts
+        """
+        return content_hash(self)
+
+
+class KernelLoad(PointLoad):
+    """A point load whose physics is in compiled kernels; what depends on time is in time inputs.
 
     One set of kernels serves the time integration, which calls them from compiled code, and
     :meth:`forces` and :meth:`tangents`.
     """
 
-    force_kernel: ClassVar[ExchangeableKernel]
-    tangent_kernel: ClassVar[ExchangeableKernel]
-    energy_kernel: ClassVar[ExchangeableKernel] = nothing_stored
-    commit_kernel: ClassVar[ExchangeableKernel] = nothing_kept
     inertial: ClassVar[bool] = False
     """Whether the force depends on the acceleration, and the load belongs to the mass matrix."""
 
-    if TYPE_CHECKING:  # fields or properties of the loads themselves
+    if TYPE_CHECKING:
 
         @property
-        def name(self) -> str: ...
+        def force_kernel(self) -> ExchangeableKernel: ...
 
         @property
-        def height(self) -> Array: ...
+        def tangent_kernel(self) -> ExchangeableKernel: ...
+
+        @property
+        def energy_kernel(self) -> ExchangeableKernel: ...
+
+        @property
+        def commit_kernel(self) -> ExchangeableKernel: ...
+
+    else:
+        energy_kernel = nothing_stored
+        commit_kernel = nothing_kept
 
     @property
     @abstractmethod
@@ -207,26 +285,41 @@ class KernelLoad(ABC):
         """How many numbers the load keeps of its past; they are zero at first."""
         return 0
 
-    def rows(self, time: Array, rise: Array) -> Array:
-        """(t, w) numbers that depend on time alone, at times (t,) and rises (t,)."""
+    @property
+    def stores_energy(self) -> bool:
+        """Whether it stores energy, and so does no work of its own."""
+        return self.energy_kernel is not nothing_stored
+
+    def time_inputs(self, time: Array, ramp_factor: Array) -> Array:
+        """(t, w) numbers that depend on time alone, at times (t,) with ramp factors (t,)."""
         return np.zeros((len(time), 0))
 
+    def mean_inputs(self) -> Array:
+        """(w,) the same of the mean, for statics and modes."""
+        return np.ascontiguousarray(self.time_inputs(np.zeros(1), np.zeros(1))[0])
+
+    def compiled(self) -> tuple[KernelLoad, ...]:
+        return (self,)
+
+    def raise_failure(self) -> None:
+        """Raise what went wrong in a call from compiled code, if anything did."""
+
     def forces(
-        self, time: float, motion: PointMotion, rise: float, memory: Array | None = None
+        self, time: float, motion: PointMotion, ramp_factor: float, memory: Array | None = None
     ) -> PointForces:
         columns = motion.columns()
         force = np.zeros((len(columns), 6))
-        row, past = self._row(time, rise), self._past(memory)
-        lost = self.force_kernel(columns, self.constants, row, past, force)
-        return PointForces(force[:, :3], force[:, 3:], lost)
+        inputs, past = self._inputs(time, ramp_factor), self._past(memory)
+        power = self.force_kernel(columns, self.constants, inputs, past, force)
+        return PointForces(force[:, :3], force[:, 3:], power)
 
     def tangents(
-        self, time: float, motion: PointMotion, rise: float, memory: Array | None = None
+        self, time: float, motion: PointMotion, ramp_factor: float, memory: Array | None = None
     ) -> PointTangents:
         columns = motion.columns()
         blocks = np.zeros((len(columns), 7, 3, 3))
-        row, past = self._row(time, rise), self._past(memory)
-        self.tangent_kernel(columns, self.constants, row, past, blocks)
+        inputs, past = self._inputs(time, ramp_factor), self._past(memory)
+        self.tangent_kernel(columns, self.constants, inputs, past, blocks)
         return PointTangents(*np.ascontiguousarray(blocks.transpose(1, 0, 2, 3)))
 
     def energy(self, motion: PointMotion, memory: Array | None = None) -> float:
@@ -234,19 +327,81 @@ class KernelLoad(ABC):
         return float(self.energy_kernel(motion.columns(), self.constants, self._past(memory)))
 
     def commit(
-        self, motion: PointMotion, memory: Array, time: float = 0.0, rise: float = 1.0
+        self, motion: PointMotion, memory: Array, time: float = 0.0, ramp_factor: float = 1.0
     ) -> float:
-        """End a step: change the memory (m,) to that of a motion at a time; heat made in J."""
-        row = self._row(time, rise)
-        return float(self.commit_kernel(motion.columns(), self.constants, row, memory))
+        """End a step: the memory (m,) becomes that of a motion; dissipated energy in J."""
+        inputs = self._inputs(time, ramp_factor)
+        return float(self.commit_kernel(motion.columns(), self.constants, inputs, memory))
 
-    def _row(self, time: float, rise: float) -> Array:
-        return np.ascontiguousarray(self.rows(np.array([time]), np.array([rise]))[0])
+    def _inputs(self, time: float, ramp_factor: float) -> Array:
+        inputs = self.time_inputs(np.array([time]), np.array([ramp_factor]))
+        return np.ascontiguousarray(inputs[0])
 
     def _past(self, memory: Array | None) -> Array:
         return np.zeros(self.memory_size) if memory is None else memory
 
 
-def as_argument(load: PointLoad, memory: Array) -> dict[str, Array]:
-    """A load's memory for its methods; loads of the user's own take none."""
-    return {"memory": memory} if isinstance(load, KernelLoad) else {}
+class GroupedLoad(PointLoad):
+    """A load whose points fall into groups, each with kernels of its own."""
+
+    @property
+    @abstractmethod
+    def groups(self) -> tuple[tuple[NDArray[np.intp], KernelLoad], ...]:
+        """The points of each group, with their load; each point is in one group."""
+
+    def compiled(self) -> tuple[KernelLoad, ...]:
+        return tuple(load for _, load in self.groups)
+
+    @property
+    def memory_size(self) -> int:
+        """How many numbers the groups keep of their past, one group after the other."""
+        return sum(load.memory_size for load in self.compiled())
+
+    @property
+    def stores_energy(self) -> bool:
+        """Whether it stores energy, and so does no work of its own."""
+        return all(load.stores_energy for load in self.compiled())
+
+    def forces(
+        self, time: float, motion: PointMotion, ramp_factor: float, memory: Array | None = None
+    ) -> PointForces:
+        force, moment = np.zeros((2, len(self.height), 3))
+        power = 0.0
+        for points, load, past in self._parts(memory):
+            found = load.forces(time, motion[points], ramp_factor, past)
+            force[points], moment[points] = found.force, found.moment
+            power += found.dissipation
+        return PointForces(force, moment, power)
+
+    def tangents(
+        self, time: float, motion: PointMotion, ramp_factor: float, memory: Array | None = None
+    ) -> PointTangents:
+        blocks = np.zeros((len(self.height), 7, 3, 3))
+        for points, load, past in self._parts(memory):
+            blocks[points] = load.tangents(time, motion[points], ramp_factor, past).blocks()
+        return PointTangents(*np.ascontiguousarray(blocks.transpose(1, 0, 2, 3)))
+
+    def energy(self, motion: PointMotion, memory: Array | None = None) -> float:
+        """Energy stored in J."""
+        return sum(load.energy(motion[points], past) for points, load, past in self._parts(memory))
+
+    def commit(self, motion: PointMotion, memory: Array) -> float:
+        """End a step: change the memory (m,) to that of a motion; dissipated energy in J."""
+        return sum(load.commit(motion[points], past) for points, load, past in self._parts(memory))
+
+    def _parts(self, memory: Array | None) -> list[tuple[NDArray[np.intp], KernelLoad, Array]]:
+        whole = np.zeros(self.memory_size) if memory is None else memory
+        ends = np.cumsum([load.memory_size for load in self.compiled()])[:-1]
+        return [
+            (points, load, past)
+            for (points, load), past in zip(self.groups, np.split(whole, ends), strict=True)
+        ]
+
+
+def joined_attributes(loads: Sequence[PointLoad]) -> dict[str, str]:
+    """Attributes of all loads together, those of one name joined."""
+    found: dict[str, list[str]] = {}
+    for load in loads:
+        for name, value in load.attributes().items():
+            found.setdefault(name, []).append(value)
+    return {name: "; ".join(values) for name, values in found.items()}

@@ -1,6 +1,6 @@
 """Point loads written in Python, called from compiled code.
 
-Numbers cross the border, objects do not: a load is known there by its place in a register.
+Compiled code cannot have Python objects; it knows a load by its place in a register.
 """
 
 from __future__ import annotations
@@ -20,43 +20,56 @@ from offwind_pin.loads.point_load import (
     SPIN,
     TURN,
     VELOCITY,
+    Channel,
     KernelLoad,
+    PointForces,
     PointLoad,
     PointMotion,
+    PointTangents,
     force_kernel,
     tangent_kernel,
 )
 
 _register: WeakValueDictionary[int, PythonLoad] = WeakValueDictionary()
-_numbers = itertools.count()
+_places = itertools.count()
 
 
-def _call_forces(number: float, motion: Array, row: Array, force: Array) -> float:
-    return _register[int(number)].write_forces(motion, row, force)
+_PLACE = 0
+"""Column of the constants: place in the register."""
+_TIME, _RAMP_FACTOR = range(2)
+"""Columns of the time inputs."""
 
 
-def _call_tangents(number: float, motion: Array, row: Array, blocks: Array) -> None:
-    _register[int(number)].write_tangents(motion, row, blocks)
+def _call_forces(place: float, motion: Array, time_inputs: Array, force: Array) -> float:
+    return _register[int(place)].write_forces(motion, time_inputs, force)
+
+
+def _call_tangents(place: float, motion: Array, time_inputs: Array, blocks: Array) -> None:
+    _register[int(place)].write_tangents(motion, time_inputs, blocks)
 
 
 @force_kernel
-def _forces(motion: Array, constants: Array, row: Array, memory: Array, force: Array) -> float:
-    with objmode(lost="float64"):
-        lost = _call_forces(constants[0, 0], motion, row, force)
-    return lost  # noqa: RET504 (a block in object mode cannot return)
+def _forces(
+    motion: Array, constants: Array, time_inputs: Array, memory: Array, force: Array
+) -> float:
+    with objmode(power="float64"):
+        power = _call_forces(constants[0, _PLACE], motion, time_inputs, force)
+    return power  # noqa: RET504 (a block in object mode cannot return)
 
 
 @tangent_kernel
-def _tangents(motion: Array, constants: Array, row: Array, memory: Array, blocks: Array) -> None:
+def _tangents(
+    motion: Array, constants: Array, time_inputs: Array, memory: Array, blocks: Array
+) -> None:
     with objmode():
-        _call_tangents(constants[0, 0], motion, row, blocks)
+        _call_tangents(constants[0, _PLACE], motion, time_inputs, blocks)
 
 
 class PythonLoad(KernelLoad):
-    """A load of the user's own, wrapped; what it does to energy counts as work.
+    """A load written in Python, wrapped for compiled code; its energy counts as work.
 
-    An exception in the load is kept in ``failure``, and its forces become NaN, so that the solver
-    stops; whoever called the solver raises it again.
+    An exception in the load is kept, and its forces become NaN, so that the solver stops; whoever
+    called the solver raises it again.
     """
 
     inertial = True
@@ -65,9 +78,9 @@ class PythonLoad(KernelLoad):
 
     def __init__(self, load: PointLoad) -> None:
         self.load = load
-        self.failure: Exception | None = None
-        self._number = next(_numbers)
-        _register[self._number] = self
+        self._failure: Exception | None = None
+        self._place = next(_places)
+        _register[self._place] = self
 
     @property
     def name(self) -> str:
@@ -78,40 +91,73 @@ class PythonLoad(KernelLoad):
         return self.load.height
 
     @property
+    def moves_with_ground(self) -> bool:  # type: ignore[override]
+        return self.load.moves_with_ground
+
+    @property
     def constants(self) -> Array:
-        return np.full((len(self.height), 1), float(self._number))
+        return np.full((len(self.height), 1), float(self._place))
 
-    def rows(self, time: Array, rise: Array) -> Array:
-        """(t, 2) time and rise."""
-        return np.column_stack([time, rise])
+    @property
+    def channels(self) -> tuple[Channel, ...]:
+        return self.load.channels
 
-    def write_forces(self, motion: Array, row: Array, force: Array) -> float:
+    @property
+    def surrogate(self) -> str | None:
+        return self.load.surrogate
+
+    def outputs(self, time: Array, ramp_factor: Array) -> dict[str, Array]:
+        return self.load.outputs(time, ramp_factor)
+
+    def attributes(self) -> dict[str, str]:
+        return self.load.attributes()
+
+    def fingerprint(self) -> str:
+        return self.load.fingerprint()
+
+    def time_inputs(self, time: Array, ramp_factor: Array) -> Array:
+        """(t, 2) time and ramp factor."""
+        return np.column_stack([time, ramp_factor])
+
+    def raise_failure(self) -> None:
+        if self._failure is not None:
+            failure, self._failure = self._failure, None
+            raise failure
+
+    def forces(
+        self, time: float, motion: PointMotion, ramp_factor: float, memory: Array | None = None
+    ) -> PointForces:
+        return self.load.forces(time, motion, ramp_factor)
+
+    def tangents(
+        self, time: float, motion: PointMotion, ramp_factor: float, memory: Array | None = None
+    ) -> PointTangents:
+        return self.load.tangents(time, motion, ramp_factor)
+
+    def write_forces(self, motion: Array, time_inputs: Array, force: Array) -> float:
+        time, ramp_factor = time_inputs[_TIME], time_inputs[_RAMP_FACTOR]
         try:
-            result = self.load.forces(row[0], _motion(motion), row[1])
+            result = self.load.forces(time, _motion(motion), ramp_factor)
         except Exception as failure:
-            self.failure = failure
+            self._failure = failure
             force[:] = np.nan
             return 0.0
         force[:, :3], force[:, 3:] = result.force, result.moment
         return float(result.dissipation)
 
-    def write_tangents(self, motion: Array, row: Array, blocks: Array) -> None:
+    def write_tangents(self, motion: Array, time_inputs: Array, blocks: Array) -> None:
+        time, ramp_factor = time_inputs[_TIME], time_inputs[_RAMP_FACTOR]
         try:
-            result = self.load.tangents(row[0], _motion(motion), row[1])
+            result = self.load.tangents(time, _motion(motion), ramp_factor)
         except Exception as failure:
-            self.failure = failure
+            self._failure = failure
             blocks[:] = np.nan
             return
         blocks[:] = result.blocks()
 
 
-def as_kernel_load(load: PointLoad) -> KernelLoad:
-    """The load itself if its physics is compiled already, else wrapped."""
-    return load if isinstance(load, KernelLoad) else PythonLoad(load)
-
-
 def _motion(columns: Array) -> PointMotion:
-    """A copy, so that no load can change or keep what the solver works on."""
+    """A copy, so that no load can change or keep the solver's own arrays."""
     columns = columns.copy()
     return PointMotion(
         columns[:, POSITION],

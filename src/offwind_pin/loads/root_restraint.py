@@ -1,17 +1,18 @@
-"""What holds the six joints of a root: springs and dashpots, or something of the user's own."""
+"""Restraints of the six joints of a root: springs and dashpots, or one of a user's own."""
 
 from __future__ import annotations
 
 import itertools
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import Any, ClassVar, Protocol
+from typing import TYPE_CHECKING, Any
 from weakref import WeakValueDictionary
 
 import numpy as np
 from numba import objmode, types
 
 from offwind_pin.base.definition import Array
+from offwind_pin.base.fingerprint import content_hash
 from offwind_pin.base.kernels import ExchangeableKernel, exchangeable
 
 _ROW, _MATRIX = types.float64[::1], types.float64[:, ::1]
@@ -19,59 +20,85 @@ _ROW, _MATRIX = types.float64[::1], types.float64[:, ::1]
 _TWO_NUMBERS: Any = types.UniTuple(types.float64, 2)  # type: ignore[no-untyped-call]
 
 restraint_kernel = exchangeable(_TWO_NUMBERS(_ROW, _ROW, _ROW, _ROW, _ROW, _MATRIX, _MATRIX))
-"""Decorator for ``kernel(displacement, velocity, numbers, memory, reaction, stiffness, damping)``.
+"""Decorator for ``kernel(displacement, velocity, constants, memory, reaction, stiffness, damping)``
 
-It sets reaction (6,) and its derivatives (6, 6), and returns the power that it turns into heat in W
-and the energy that it stores in J. numbers holds what is constant, memory (m,) what the restraint
-keeps of its past, as of the last step.
+It sets reaction (6,) and its derivatives (6, 6), and returns the power in W that it dissipates and
+the energy in J that it stores. memory (m,) is what the restraint keeps of its past, as of the last
+step.
 """
 
 restraint_commit = exchangeable(types.float64(_ROW, _ROW, _ROW))
-"""Decorator for ``kernel(displacement, numbers, memory) -> heat``.
+"""Decorator for ``kernel(displacement, constants, memory) -> dissipated_energy``.
 
-It ends a step: the memory becomes that of the displacement, and what that turned into heat is
-returned in J.
+It ends a step: the memory becomes that of the displacement, and the energy in J that the step
+dissipated is returned.
 """
 
 
-class RootRestraint(Protocol):
-    """What resists the six joints of the root: x, y, z in m, rotations about x, y, z in rad."""
-
-    def reaction(self, displacement: Array, velocity: Array) -> Array:
-        """(6,) generalised force that the restraint takes up, in N and N m."""
-
-    def tangents(self, displacement: Array, velocity: Array) -> tuple[Array, Array]:
-        """(6, 6) derivatives of the reaction by displacement and by velocity."""
-
-    def describe(self) -> dict[str, object]:
-        """Plain data for the sidecar."""
-
-
 @restraint_commit
-def nothing_kept_by_root(displacement: Array, numbers: Array, memory: Array) -> float:
+def nothing_kept_by_root(displacement: Array, constants: Array, memory: Array) -> float:
     """Of a restraint without memory."""
     return 0.0
 
 
-class KernelRestraint(ABC):
+class RootRestraint(ABC):
+    """Resists the six joints of the root: x, y, z in m, rotations about x, y, z in rad.
+
+    Base class of the package's restraints and of a user's own.
+    """
+
+    @abstractmethod
+    def reaction(self, displacement: Array, velocity: Array) -> Array:
+        """(6,) generalised force that the restraint takes up, in N and N m."""
+
+    @abstractmethod
+    def tangents(self, displacement: Array, velocity: Array) -> tuple[Array, Array]:
+        """(6, 6) derivatives of the reaction by displacement and by velocity."""
+
+    @abstractmethod
+    def describe(self) -> dict[str, object]:
+        """Plain data for the sidecar."""
+
+    def compiled(self) -> KernelRestraint:
+        """The restraint for compiled code."""
+        return PythonRestraint(self)
+
+    def fingerprint(self) -> str:
+        """Hash of everything that determines the reaction, see :meth:`PointLoad.fingerprint`.
+
+        Raises
+        ------
+        NoFingerprintError : an attribute that cannot be hashed; the class must then say what counts
+        """
+        return content_hash(self)
+
+
+class KernelRestraint(RootRestraint):
     """A restraint whose physics is in compiled kernels."""
 
-    reaction_kernel: ClassVar[ExchangeableKernel]
-    commit_kernel: ClassVar[ExchangeableKernel] = nothing_kept_by_root
+    if TYPE_CHECKING:
+
+        @property
+        def reaction_kernel(self) -> ExchangeableKernel: ...
+
+        @property
+        def commit_kernel(self) -> ExchangeableKernel: ...
+
+    else:
+        commit_kernel = nothing_kept_by_root
 
     @property
     @abstractmethod
-    def numbers(self) -> Array:
-        """(c,) what is constant."""
+    def constants(self) -> Array:
+        """(c,) numbers that do not change."""
+
+    def compiled(self) -> KernelRestraint:
+        return self
 
     @property
     def memory_size(self) -> int:
         """How many numbers the restraint keeps of its past; they are zero at first."""
         return 0
-
-    @abstractmethod
-    def describe(self) -> dict[str, object]:
-        """Plain data for the sidecar."""
 
     def reaction(self, displacement: Array, velocity: Array, memory: Array | None = None) -> Array:
         return self._evaluate(displacement, velocity, memory)[0]
@@ -82,8 +109,8 @@ class KernelRestraint(ABC):
         return self._evaluate(displacement, velocity, memory)[1:]
 
     def commit(self, displacement: Array, memory: Array) -> float:
-        """End a step: change the memory (m,) to that of a displacement; heat made in J."""
-        return float(self.commit_kernel(displacement, self.numbers, memory))
+        """End a step: change the memory (m,) to that of a displacement; dissipated energy in J."""
+        return float(self.commit_kernel(displacement, self.constants, memory))
 
     def _evaluate(
         self, displacement: Array, velocity: Array, memory: Array | None
@@ -91,7 +118,7 @@ class KernelRestraint(ABC):
         past = np.zeros(self.memory_size) if memory is None else memory
         reaction, stiffness, damping = np.zeros(6), np.zeros((6, 6)), np.zeros((6, 6))
         u, v = np.ascontiguousarray(displacement), np.ascontiguousarray(velocity)
-        self.reaction_kernel(u, v, self.numbers, past, reaction, stiffness, damping)
+        self.reaction_kernel(u, v, self.constants, past, reaction, stiffness, damping)
         return reaction, stiffness, damping
 
 
@@ -99,24 +126,24 @@ class KernelRestraint(ABC):
 def _linear(
     displacement: Array,
     velocity: Array,
-    numbers: Array,
+    constants: Array,
     memory: Array,
     reaction: Array,
     stiffness: Array,
     damping: Array,
 ) -> tuple[float, float]:
-    matrices = numbers.reshape(2, 6, 6)
-    lost = stored = 0.0
+    power = stored = 0.0
     for i in range(6):
         elastic = viscous = 0.0
         for j in range(6):
-            stiffness[i, j], damping[i, j] = matrices[0, i, j], matrices[1, i, j]
+            stiffness[i, j] = constants[6 * i + j]
+            damping[i, j] = constants[36 + 6 * i + j]
             elastic += stiffness[i, j] * displacement[j]
             viscous += damping[i, j] * velocity[j]
         reaction[i] = elastic + viscous
         stored += elastic * displacement[i] / 2
-        lost += viscous * velocity[i]
-    return lost, stored
+        power += viscous * velocity[i]
+    return power, stored
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,7 +156,7 @@ class LinearRestraint(KernelRestraint):
     reaction_kernel = _linear
 
     @property
-    def numbers(self) -> Array:
+    def constants(self) -> Array:
         return np.concatenate([self.stiffness.ravel(), self.damping.ravel()])
 
     def describe(self) -> dict[str, object]:
@@ -137,18 +164,20 @@ class LinearRestraint(KernelRestraint):
 
 
 _register: WeakValueDictionary[int, PythonRestraint] = WeakValueDictionary()
-_numbers = itertools.count()
+_places = itertools.count()
+_PLACE = 0
+"""Place in the register among the constants."""
 
 
 def _call(
-    number: float,
+    place: float,
     displacement: Array,
     velocity: Array,
     reaction: Array,
     stiffness: Array,
     damping: Array,
 ) -> None:
-    restraint = _register[int(number)].restraint
+    restraint = _register[int(place)].restraint
     reaction[:] = restraint.reaction(displacement.copy(), velocity.copy())
     stiffness[:], damping[:] = restraint.tangents(displacement.copy(), velocity.copy())
 
@@ -157,40 +186,37 @@ def _call(
 def _in_python(
     displacement: Array,
     velocity: Array,
-    numbers: Array,
+    constants: Array,
     memory: Array,
     reaction: Array,
     stiffness: Array,
     damping: Array,
 ) -> tuple[float, float]:
     with objmode():
-        _call(numbers[0], displacement, velocity, reaction, stiffness, damping)
+        _call(constants[_PLACE], displacement, velocity, reaction, stiffness, damping)
     return 0.0, 0.0
 
 
 class PythonRestraint(KernelRestraint):
-    """A restraint of the user's own, wrapped; it reports no energies."""
+    """A restraint written in Python, wrapped for compiled code; it reports no energies."""
 
     reaction_kernel = _in_python
 
     def __init__(self, restraint: RootRestraint) -> None:
         self.restraint = restraint
-        self._number = next(_numbers)
-        _register[self._number] = self
+        self._place = next(_places)
+        _register[self._place] = self
 
     @property
-    def numbers(self) -> Array:
-        return np.array([float(self._number)])
+    def constants(self) -> Array:
+        return np.array([float(self._place)])
 
     def describe(self) -> dict[str, object]:
         return self.restraint.describe()
 
+    def fingerprint(self) -> str:
+        return self.restraint.fingerprint()
 
-_FREE = LinearRestraint(np.zeros((6, 6)), np.zeros((6, 6)))
 
-
-def as_kernel_restraint(root: RootRestraint | None) -> KernelRestraint:
-    """The restraint itself if its physics is compiled, else wrapped; of none, a void one."""
-    if root is None:
-        return _FREE
-    return root if isinstance(root, KernelRestraint) else PythonRestraint(root)
+FREE = LinearRestraint(np.zeros((6, 6)), np.zeros((6, 6)))
+"""Resists nothing; stands in where a chain has no root joints."""

@@ -42,6 +42,7 @@ class HistoryWriter:
     levels : (D,) heights in m at which the ground's motion is recorded; none without an earthquake
     dampers : travel in m of each tuned mass damper by its name
     soil : (n,) heights in m of the nodes of the soil; none where no soil acts along the pile
+    load_channels : of the loads, by name: dimensions after time, name in words, units
     """
 
     mudline: float
@@ -54,6 +55,7 @@ class HistoryWriter:
     levels: Array = field(default_factory=lambda: np.zeros(0))
     dampers: Mapping[str, float] = field(default_factory=dict)
     soil: Array = field(default_factory=lambda: np.zeros(0))
+    load_channels: Mapping[str, tuple[tuple[str, ...], str, str]] = field(default_factory=dict)
 
     def write(self, store: BlockStore, status: str, directory: Path | str | None) -> xr.Dataset:
         """Dataset of all blocks; with a directory it stands in ``results.nc`` there.
@@ -203,6 +205,9 @@ class HistoryWriter:
                 np.array(list(self.dampers.values())),
                 {"long_name": "available travel of a tuned mass damper", "units": "m"},
             )
+        for name, (dims, about, unit) in self.load_channels.items():
+            if name not in channels:
+                channels[name] = (("time", *dims), block[name], _about(about, unit))
         names = np.array([*HOLDERS, *self.loads])
         coordinates = {
             "time": ("time", block["time"], {"long_name": "simulated time", "units": "s"}),
@@ -226,8 +231,8 @@ class HistoryWriter:
         }
         if shaken:
             channels |= _ground_channels(block["ground_motion"])
-            about = {"long_name": "height at which the ground motion is recorded", "units": "m"}
-            coordinates["level"] = ("level", self.levels, about)
+            of_level = {"long_name": "height at which the ground motion is recorded", "units": "m"}
+            coordinates["level"] = ("level", self.levels, of_level)
         if len(self.soil):
             of_node = {"long_name": "undeformed height of the soil node", "units": "m"}
             coordinates["soil_node"] = ("soil_node", self.soil, of_node)

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import hashlib
 import xml.etree.ElementTree as ET
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from offwind_pin.base.definition import Array, with_paths
+from offwind_pin.base.definition import Array
 from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.structure.chain import Chain
 from offwind_pin.structure.meshes import Mesh, body_meshes, damper_disc
@@ -87,7 +85,7 @@ def write_sidecar(
     node_joints = chain.node_joint_name
     return {
         "turbine": turbine.name,
-        "definition_sha256": definition_hash(turbine),
+        "definition_sha256": turbine.content_hash,
         "units": {
             "length": "m",
             "mass": "kg",
@@ -122,16 +120,6 @@ def _sliding_masses(chain: Chain) -> dict[str, Any]:
         for joint in mass.joint_names
     }
     return {"tuned_mass_dampers": dampers} if dampers else {}
-
-
-def definition_hash(turbine: Turbine) -> str:
-    """SHA-256 of the definition's JSON, files in it by their contents and not by their names.
-
-    A turbine without tuned mass dampers keeps the hash that it had before there were any.
-    """
-    whole = with_paths(turbine, lambda file: Path(hashlib.sha256(file.read_bytes()).hexdigest()))
-    left_out = None if turbine.tuned_mass_dampers else {"tuned_mass_dampers"}
-    return hashlib.sha256(whole.model_dump_json(exclude=left_out).encode()).hexdigest()
 
 
 def _materials(robot: ET.Element, *, dampers: bool) -> None:

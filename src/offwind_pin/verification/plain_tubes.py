@@ -96,7 +96,7 @@ def equilibrium(
     loads: list[PointLoad] = []
     if top_load is not None:
         loads = [constant_load(system.chain.top, np.asarray(top_load, dtype=float))]
-    equations = system.equations(loads, ramp_time=np.inf)
+    equations = system.equations(loads, ramp_time=None)
     rest = np.zeros(system.nv)
     found = newton(
         lambda q: equations.residual(0.0, q, rest, rest),
@@ -134,7 +134,7 @@ def frequencies(system: System, count: int, joint: int = FORE_AFT) -> Array:
     times faster, costs its bending no digits.
     """
     rest = np.zeros(system.nv)
-    equations = system.equations((), ramp_time=np.inf)
+    equations = system.equations((), ramp_time=None)
     stiffness, _ = equations.tangents(0.0, rest, rest)
     mass = equations.mass(rest)
     family = np.arange(joint, system.nv, 3)

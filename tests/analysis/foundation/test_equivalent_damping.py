@@ -12,9 +12,9 @@ import offwind_pin as ow
 from offwind_pin.analysis.foundation.equivalent_damping import equivalent_damping
 from offwind_pin.base.definition import Array
 from offwind_pin.definitions.soil.springs import DampingCurve, SoilDashpot
-from offwind_pin.loads.soil.curves.laws import curve_energy, linear_curves, tanh_curves
+from offwind_pin.loads.soil.curves.laws import LinearCurves, TanhCurves
 from offwind_pin.loads.soil.springs.dashpot import NO_DASHPOT, Dashpot
-from offwind_pin.loads.soil.springs.elastic import LATERAL, ROCKING, Direction, SoilSprings
+from offwind_pin.loads.soil.springs.elastic import LATERAL, ROCKING, SoilSprings, SpringComponent
 from offwind_pin.loads.soil.springs.hysteretic import HystereticSprings
 
 MODULUS, ULTIMATE, LENGTH = 3e8, 2e6, 0.75
@@ -24,10 +24,10 @@ AMPLITUDES = np.array([1e-3, 5e-3, 2e-2])
 FREQUENCIES = np.array([0.1, 0.236, 1.1])
 
 
-def springs(dashpot: Dashpot, direction: Direction = LATERAL) -> SoilSprings:
+def springs(dashpot: Dashpot, component: SpringComponent = LATERAL) -> SoilSprings:
     """A first node where nothing resists, and a second one on a tanh curve."""
-    curves = tanh_curves(np.array([0.0, MODULUS]), np.array([0.0, ULTIMATE]))
-    return SoilSprings("soil", direction, HEIGHT, np.full(2, LENGTH), curves, dashpot)
+    curves = TanhCurves(np.array([0.0, MODULUS]), np.array([0.0, ULTIMATE]))
+    return SoilSprings("soil", component, HEIGHT, np.full(2, LENGTH), curves, dashpot)
 
 
 def dashpot(
@@ -43,11 +43,11 @@ def secant(amplitude: Array) -> Array:
     return LENGTH * ULTIMATE * np.tanh(MODULUS * amplitude / ULTIMATE) / amplitude
 
 
-@pytest.mark.parametrize("direction", [LATERAL, ROCKING])
-def test_secant_dashpot_of_a_linear_spring(direction: Direction) -> None:
+@pytest.mark.parametrize("component", [LATERAL, ROCKING])
+def test_secant_dashpot_of_a_linear_spring(component: SpringComponent) -> None:
     """Of constant stiffness: beta f / f_load, whatever the amplitude and what is resisted."""
-    curves = linear_curves(np.array([MODULUS]))
-    soil = SoilSprings("soil", direction, HEIGHT[:1], np.ones(1), curves, dashpot("secant"))
+    curves = LinearCurves(np.array([MODULUS]))
+    soil = SoilSprings("soil", component, HEIGHT[:1], np.ones(1), curves, dashpot("secant"))
     found = equivalent_damping(soil, AMPLITUDES, FREQUENCIES, node=0)
     expected = np.tile(FACTOR * FREQUENCIES / LOAD_FREQUENCY, (3, 1))
     assert_allclose(found.damping_ratio, expected, rtol=1e-9)
@@ -89,7 +89,7 @@ def test_sliders_follow_masing() -> None:
     soil = springs(NO_DASHPOT)
     parts = ("soil", LATERAL, HEIGHT, soil.tributary_length, soil.curves, NO_DASHPOT)
     found = equivalent_damping(HystereticSprings(*parts, 200), AMPLITUDES, FREQUENCIES, node=1)
-    energy = LENGTH * np.array([curve_energy(soil.curves.numbers[1], y) for y in AMPLITUDES])
+    energy = LENGTH * soil.curves.at(np.ones(3, dtype=np.intp)).energy(AMPLITUDES)
     work = secant(AMPLITUDES) * AMPLITUDES**2
     expected = (8 * energy - 4 * work) / (2 * np.pi * work)
     assert_allclose(found.damping_ratio, np.tile(expected[:, None], 3), rtol=1e-3)

@@ -22,7 +22,7 @@ from offwind_pin.cases.run import run_case
 from offwind_pin.display.figures import soil as soil_plots
 from offwind_pin.display.report import soil_report as soil_page
 from offwind_pin.formats.openfast.subdyn_soildyn import read_soildyn, read_subdyn_ssi
-from offwind_pin.loads.soil.curves.laws import tabulated_curves
+from offwind_pin.loads.soil.curves.tabulated import tabulated_curves
 from offwind_pin.loads.soil.macro_element import MacroElement
 
 LOAD = np.array([1.5e6, 0, 0, 0, 3e6, 1e6])

@@ -17,7 +17,7 @@ from offwind_pin.display.figures import results as plots
 from offwind_pin.display.figures import sea as sea_plots
 from offwind_pin.display.figures.style import to_svg
 from offwind_pin.display.report.sea import sea_pictures
-from offwind_pin.loads.sea.hydrodynamic_loads import Waters
+from offwind_pin.loads.sea.hydrodynamic_loads import HydrodynamicModel
 from offwind_pin.loads.sea.sea import Sea
 from offwind_pin.loads.sea.waves.dispersion import wave_number
 from offwind_pin.signal.spectra import power_spectral_density
@@ -50,14 +50,16 @@ def texts(axes: Axes) -> list[str]:
 class TestPhases:
     def test_of_a_regular_wave(self, undamped: ow.Turbine) -> None:
         """Crest at 0: crossing a quarter of a period before, trough half a period after."""
-        waters = Waters.of(undamped, ow.RegularWaves(HEIGHT, PERIOD))
+        waters = HydrodynamicModel.of(undamped, ow.RegularWaves(HEIGHT, PERIOD))
         found = sea_data.phases(waters.surface, waters.surface.waves, 3 * PERIOD)
         assert found.crossing == pytest.approx(2.75 * PERIOD, abs=1e-4)
         assert found.trough == pytest.approx(3.5 * PERIOD, abs=PERIOD / 200)
 
     def test_of_irregular_waves(self, undamped: ow.Turbine) -> None:
         """The surface is nothing at the crossing, and never between it and the crest."""
-        waters = Waters.of(undamped, ow.IrregularWaves(4.0, 9.0, seed=1, repeat_period=600.0))
+        waters = HydrodynamicModel.of(
+            undamped, ow.IrregularWaves(4.0, 9.0, seed=1, repeat_period=600.0)
+        )
         time = np.arange(0, 600, 0.1)
         crest = float(time[np.argmax(waters.surface.elevation(time))])
         found = sea_data.phases(waters.surface, waters.surface.waves, crest)
@@ -68,7 +70,7 @@ class TestPhases:
         assert crest < found.trough < crest + 12
 
     def test_mean_period_is_that_of_the_moments(self, undamped: ow.Turbine) -> None:
-        waters = Waters.of(undamped, ow.RegularWaves(HEIGHT, PERIOD))
+        waters = HydrodynamicModel.of(undamped, ow.RegularWaves(HEIGHT, PERIOD))
         assert sea_data.mean_period(waters.surface.waves) == pytest.approx(PERIOD)
 
     @pytest.mark.parametrize("angle", [0.0, 30.0, -120.0])
@@ -76,7 +78,9 @@ class TestPhases:
     def test_direction_is_where_waves_travel(
         self, undamped: ow.Turbine, kind: type, angle: float
     ) -> None:
-        waves = Waters.of(undamped, kind(HEIGHT, PERIOD, direction_deg=angle)).surface.waves
+        waves = HydrodynamicModel.of(
+            undamped, kind(HEIGHT, PERIOD, direction_deg=angle)
+        ).surface.waves
         along = sea_data.wave_direction(waves)
         assert_allclose(along, [np.cos(np.radians(angle)), np.sin(np.radians(angle))], atol=1e-6)
 
@@ -86,7 +90,7 @@ class TestProfiles:
         """Velocity with the current at the crest, acceleration at the crossing, up to the level."""
         current = ow.PowerLawCurrent(0.7, 40.0)
         sea = ow.RegularWaves(HEIGHT, PERIOD, current=current, water_level=0.0)
-        waters = Waters.of(undamped, sea)
+        waters = HydrodynamicModel.of(undamped, sea)
         crest, crossing = sea_data.profiles(waters, sea, np.array([0.0, -PERIOD / 4]))
         speed = airy(undamped, crest.height)
         flow = current.velocity(crest.height, DEPTH)[:, :2]
@@ -101,7 +105,7 @@ class TestProfiles:
         """Wheeler's and vertical profiles end at crest and trough with the value at the level."""
         for rule in ("wheeler", "vertical"):
             sea = ow.RegularWaves(HEIGHT, PERIOD, stretching=rule)
-            waters = Waters.of(undamped, sea)
+            waters = HydrodynamicModel.of(undamped, sea)
             crest, trough = sea_data.profiles(waters, sea, np.array([0.0, PERIOD / 2]))
             assert crest.height[-1] == pytest.approx(HEIGHT / 2)
             assert trough.height[-1] == pytest.approx(-HEIGHT / 2)
@@ -115,7 +119,7 @@ class TestProfiles:
 
     def test_stand_on_the_water_level(self, undamped: ow.Turbine) -> None:
         sea = ow.RegularWaves(HEIGHT, PERIOD, water_level=2.0)
-        (crest,) = sea_data.profiles(Waters.of(undamped, sea), sea, np.zeros(1))
+        (crest,) = sea_data.profiles(HydrodynamicModel.of(undamped, sea), sea, np.zeros(1))
         assert crest.height[-1] == 2.0
 
 
@@ -140,13 +144,13 @@ class TestSpectrum:
     def test_waves_without_spectrum_have_no_target(self, undamped: ow.Turbine) -> None:
         for sea in (ow.RegularWaves(HEIGHT, PERIOD), ow.StreamWaves(HEIGHT, PERIOD)):
             assert sea_data.target_density(sea, 30.0, 9.80665) is None
-            waves = Waters.of(undamped, sea).surface.waves
+            waves = HydrodynamicModel.of(undamped, sea).surface.waves
             assert not sea_data.has_spectrum(waves)
 
     def test_bands_hold_the_variance_and_lie_on_the_target(
         self, undamped: ow.Turbine, sea: ow.IrregularWaves
     ) -> None:
-        waves = Waters.of(undamped, sea).surface.waves
+        waves = HydrodynamicModel.of(undamped, sea).surface.waves
         frequency, density = sea_data.component_density(waves, 0.002)
         width = frequency[1] - frequency[0]
         assert width == pytest.approx(0.0022222, rel=1e-3)
@@ -159,7 +163,7 @@ class TestSpectrum:
     def test_one_band_holds_a_narrow_sea(self, undamped: ow.Turbine) -> None:
         """A sea narrower than the bands asked for is one band with all its variance."""
         noise = ow.WhiteNoise(1.0, 0.1, 0.12)
-        waves = Waters.of(
+        waves = HydrodynamicModel.of(
             undamped, ow.IrregularWaves(spectrum=noise, seed=1, repeat_period=1000.0)
         ).surface.waves
         (frequency,), (density,) = sea_data.component_density(waves, 0.2)
@@ -169,7 +173,7 @@ class TestSpectrum:
     def test_the_set_down_is_no_variance(self, undamped: ow.Turbine) -> None:
         """Waves of second order begin at harmonic 0, whose square is no part of the variance."""
         steep = ow.IrregularWaves(6.0, 12.0, seed=1, repeat_period=600.0, order=2)
-        waves = Waters.of(undamped, steep).surface.waves
+        waves = HydrodynamicModel.of(undamped, steep).surface.waves
         assert abs(waves.elevation[0]) > 0.01
         frequency, density = sea_data.component_density(waves, 1 / 600)
         assert frequency[0] == pytest.approx(1 / 600)
@@ -188,7 +192,7 @@ class TestSpectrum:
         self, undamped: ow.Turbine, sea: ow.IrregularWaves
     ) -> None:
         """Welch's estimate over one whole repetition has the target's variance."""
-        waters = Waters.of(undamped, sea)
+        waters = HydrodynamicModel.of(undamped, sea)
         elevation = waters.surface.elevation(np.arange(0, 3600, 0.25))
         frequency, density = power_spectral_density(elevation, 0.25, 200.0)
         target = sea_data.target_density(sea, 30.0, 9.80665)
@@ -218,7 +222,7 @@ SEAS: dict[str, Sea] = {
 }
 
 
-def kernel_force(waters: Waters, time: float) -> Array:
+def kernel_force(waters: HydrodynamicModel, time: float) -> Array:
     """(n, 3) of the load's own kernel on an upright structure at rest, in N."""
     force = waters.wave_force()
     return force.forces(time, upright(force.height), 1.0).force
@@ -228,7 +232,7 @@ class TestForcePerLength:
     @pytest.mark.parametrize("name", SEAS)
     def test_integrates_to_the_forces_of_the_strips(self, undamped: ow.Turbine, name: str) -> None:
         """Resultant and moment are those of the load itself, along and across, at any time."""
-        waters = Waters.of(undamped, SEAS[name])
+        waters = HydrodynamicModel.of(undamped, SEAS[name])
         force = waters.wave_force()
         for along in (np.array([1.0, 0.0]), np.array([0.6, -0.8])):
             for time in (0.0, 1.3, 5.9):
@@ -241,7 +245,7 @@ class TestForcePerLength:
 
     def test_the_length_of_strips_matters(self, undamped: ow.Turbine) -> None:
         """Negative control: strips of the splash zone are of another length than those below."""
-        force = Waters.of(undamped, SEAS["splash"]).wave_force()
+        force = HydrodynamicModel.of(undamped, SEAS["splash"]).wave_force()
         found = sea_data.force_per_length(force, np.array([1.3]), np.array([1.0, 0.0]))
         assert np.ptp(found.length) > 1e-3
         wrong = found.total[0].sum() * found.length[0]
@@ -249,7 +253,7 @@ class TestForcePerLength:
 
     def test_inertia_is_that_of_the_closed_form(self, undamped: ow.Turbine) -> None:
         """rho g Cm pi D^2/4 a tanh(kh), where the pile has one diameter (9 m) and Ca."""
-        waters = Waters.of(undamped, SEAS["level"])
+        waters = HydrodynamicModel.of(undamped, SEAS["level"])
         assert np.ptp(waters.strips.diameter) < 1e-9
         site = undamped.site
         k = wave_number(np.array([OMEGA]), DEPTH, site.gravity)[0]
@@ -262,7 +266,7 @@ class TestForcePerLength:
         assert inertia == pytest.approx(closed * np.tanh(k * DEPTH), rel=1e-4)
 
     def test_envelope_bounds_every_instant_and_is_reached(self, undamped: ow.Turbine) -> None:
-        force = Waters.of(undamped, SEAS["splash"]).wave_force()
+        force = HydrodynamicModel.of(undamped, SEAS["splash"]).wave_force()
         time, along = np.arange(0, 3 * PERIOD, 0.01), np.array([1.0, 0.0])
         low, high = sea_data.force_envelope(force, time, along)
         total = sea_data.force_per_length(force, time, along).total
@@ -301,7 +305,7 @@ class TestFigures:
         sea = ow.RegularWaves(
             HEIGHT, PERIOD, stretching="wheeler", water_level=1.5, current=ow.UniformCurrent(1.0)
         )
-        waters = Waters.of(undamped, sea)
+        waters = HydrodynamicModel.of(undamped, sea)
         shown = sea_data.profiles(waters, sea, np.array([0.0, -PERIOD / 4, PERIOD / 2]))
         figure = sea_plots.kinematics(shown, np.array([1.0, 0.0]), -DEPTH, 1.5)
         speed, push = figure.axes
@@ -314,7 +318,7 @@ class TestFigures:
         assert push.get_xlabel().endswith("m/s²")
 
     def test_forces_are_drawn_in_kilonewtons(self, undamped: ow.Turbine) -> None:
-        waters = Waters.of(undamped, SEAS["level"])
+        waters = HydrodynamicModel.of(undamped, SEAS["level"])
         force, along = waters.wave_force(), np.array([1.0, 0.0])
         worst = sea_data.force_per_length(force, np.array([-PERIOD / 4]), along)
         envelope = sea_data.force_envelope(force, np.arange(0, PERIOD, 0.05), along)

@@ -7,7 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import offwind_pin as ow
-from offwind_pin.loads.sea.current import Current, mean_velocity
+from offwind_pin.loads.sea.current import mean_velocity
 
 DEPTH = 30.0
 Z = np.array([-30.0, -20.0, -10.0, 0.0, 2.0])
@@ -38,26 +38,6 @@ def test_mean_over_the_depth() -> None:
     assert mean_velocity(ow.PowerLawCurrent(2.0), DEPTH)[0] == pytest.approx(2 * 7 / 8, rel=5e-4)
     mean = mean_velocity(ow.SurfaceCurrent(2.0, 90.0), DEPTH)
     assert mean[1] == pytest.approx(2.0 * 20 / 60, rel=2e-3)
-
-
-@pytest.mark.parametrize(
-    "make",
-    [
-        lambda: ow.UniformCurrent(-1.0),
-        lambda: ow.UniformCurrent(11.0),
-        lambda: ow.UniformCurrent(1.0, float("nan")),
-        lambda: ow.PowerLawCurrent(1.0, exponent=0.0),
-        lambda: ow.SurfaceCurrent(1.0, reach=-1.0),
-        lambda: ow.CurrentTable(1.0),
-        lambda: ow.CurrentTable(1.0, depth=(0.0, 1.0), factor=(1.0,)),
-        lambda: ow.CurrentTable(1.0, depth=(1.0, 0.0), factor=(1.0, 1.0)),
-        lambda: ow.CurrentTable(1.0, depth=(0.0, 1.0), factor=(1.0, float("nan"))),
-        lambda: ow.CurrentTable(2.0, depth=(0.0, 1.0), factor=(1.0, -5.1)),
-    ],
-)
-def test_currents_that_cannot_be(make: type[Current]) -> None:
-    with pytest.raises(ow.InputError, match="current"):
-        make()
 
 
 def test_factors_up_to_the_fastest_current_pass() -> None:

@@ -346,7 +346,7 @@ def test_crests_that_cannot_be() -> None:
     """Beyond twice Hs, outside the repeat period, or where the surface would be a trough."""
     with pytest.raises(ow.InputError, match="twice the significant height"):
         realised(crest=ow.Crest(12.5, 100.0))
-    with pytest.raises(ow.InputError, match=r"crest\.time"):
+    with pytest.raises(ow.InputError, match="crest"):
         realised(crest=ow.Crest(5.0, 20000.0))
     waves = realised(repeat_period=1800.0)
     v = np.abs(waves.elevation) ** 2 / 2
@@ -356,46 +356,8 @@ def test_crests_that_cannot_be() -> None:
     low = ow.Crest(0.01, float(time[np.argmax(bend)]))
     with pytest.raises(ow.InputError, match="higher crest"):
         with_crest(waves, v, low)
-    high = with_crest(waves, v, replace(low, height=9.0))
+    high = with_crest(waves, v, low.replace(height=9.0))
     assert at(high, np.array([low.time]), 2)[0] < 0
-
-
-@pytest.mark.parametrize(
-    "change",
-    [
-        {"amplitudes": "rayleigh"},
-        {"doppler": True},
-        {"spectrum": ow.WhiteNoise(2.0, 0.05, 0.5)},
-        {"repeat_period": 20.0},
-        {"peak_shape": 9.0},
-    ],
-    ids=str,
-)
-def test_seas_that_cannot_be(change: dict[str, Any]) -> None:
-    with pytest.raises(ow.InputError, match="waves"):
-        sea(**change)
-
-
-@pytest.mark.parametrize(
-    "make",
-    [
-        lambda: ow.IrregularWaves(seed=1, repeat_period=600.0),
-        lambda: ow.IrregularWaves(2.0, seed=1, repeat_period=600.0),
-        lambda: ow.IrregularWaves(
-            spectrum=ow.WhiteNoise(2.0, 0.1, 0.101), seed=1, repeat_period=600.0
-        ),
-        lambda: ow.IrregularWaves(
-            spectrum=ow.WhiteNoise(2.0, 0.1, 0.3), peak_shape=3.3, seed=1, repeat_period=600.0
-        ),
-        lambda: ow.Spreading("cos_2s", 0.0),
-        lambda: ow.Spreading("cos2s", 4.0),  # type: ignore[arg-type]
-        lambda: ow.Crest(-1.0, 0.0),
-        lambda: ow.Crest(1.0, np.nan),
-    ],
-)
-def test_parts_that_cannot_be(make: Any) -> None:
-    with pytest.raises(ow.InputError, match="waves"):
-        make()
 
 
 def test_whole_spectrum_at_another_depth() -> None:

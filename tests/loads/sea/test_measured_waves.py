@@ -166,21 +166,3 @@ def test_files_that_cannot_be(fault: str, tmp_path: Path) -> None:
     with pytest.raises(ow.InputError, match=r"buoy\.csv") as error:
         read_surface_record(path)
     assert words in str(error.value)
-
-
-@pytest.mark.parametrize(
-    ("change", "words"),
-    [
-        ({"high_cut": 2.0}, "half the record's sampling"),
-        ({"low_cut": 0.5, "high_cut": 0.4}, "low_cut and high_cut"),
-        ({"low_cut": 0.0}, "low_cut"),
-        ({"taper": 400.0}, "taper"),
-        ({"direction_deg": np.nan}, "direction_deg"),
-        ({"doppler": True}, "doppler"),
-    ],
-)
-def test_settings_that_cannot_be(change: dict[str, Any], words: str) -> None:
-    record = ow.SurfaceRecord.of(TIME, surface(), "here")
-    settings = {"record": record, "low_cut": 0.03, "high_cut": 1.0}
-    with pytest.raises(ow.InputError, match=words):
-        ow.MeasuredWaves(**(settings | change))

@@ -10,8 +10,8 @@ from pydantic import TypeAdapter, ValidationError
 
 import offwind_pin as ow
 from offwind_pin.analysis.wave_checks import wave_facts
-from offwind_pin.cases.schema.sea import SeaChoice
 from offwind_pin.loads.sea.kinematics import WaterSeries, WaterSurface
+from offwind_pin.loads.sea.seas import SeaChoice
 from offwind_pin.loads.sea.waves.second_order import SecondOrderWaves
 from offwind_pin.loads.sea.waves.surface import SurfaceWaves
 
@@ -46,13 +46,13 @@ def test_a_regular_wave_gets_its_second_harmonic() -> None:
 def test_case_file() -> None:
     keys = {"kind": "irregular_waves", "significant_height_m": 3.0, "peak_period_s": 9.0}
     adapter: TypeAdapter[Any] = TypeAdapter(SeaChoice)
-    made = adapter.validate_python({**keys, "order": 2}).sea(1, 600.0, None)
+    made = adapter.validate_python({**keys, "order": 2}).completed(1, 600.0)
     assert made.order == 2
     assert "to second order" in made.in_words
     with pytest.raises(ValidationError, match="1 or 2"):
         adapter.validate_python({**keys, "order": 3})
     current = {"kind": "uniform", "speed_m_per_s": 1.0}
-    with pytest.raises(ValidationError, match="order: 1 only"):
+    with pytest.raises(ValidationError, match="exclude each other"):
         adapter.validate_python({**keys, "order": 2, "doppler": True, "current": current})
 
 
@@ -101,7 +101,7 @@ def test_extrapolation_continues_the_first_order_alone() -> None:
 
     def motion(kind: Any, height: float) -> Any:
         surface = WaterSurface(kind.waves(DEPTH, GRAVITY), 0.0, "extrapolation")
-        return WaterSeries(np.array([height]), surface).rows(time, np.ones(2))[:, 1:]
+        return WaterSeries(np.array([height]), surface).time_inputs(time, np.ones(2))[:, 1:]
 
     at_crest = motion(whole, above)[0] - motion(whole, 0.0)[0]
     assert at_crest == pytest.approx(motion(first, above)[0] - motion(first, 0.0)[0], abs=1e-9)

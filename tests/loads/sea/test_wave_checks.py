@@ -195,7 +195,7 @@ def test_facts_of_a_case(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> No
     }
     case = Case.model_validate(CASE | {"sea": sea, "seed": 11})
     with caplog.at_level(logging.WARNING, logger="offwind_pin"):
-        summary = run_case(case, tmp_path / "out", folder=tmp_path)
+        summary = run_case(case, tmp_path / "out")
     waves = summary["waves"]
     assert waves["repeat_period_s"] == 600.0
     assert waves["significant_height_m"] == pytest.approx(4.0, rel=0.15)
@@ -236,7 +236,9 @@ def test_facts_of_a_replayed_record(tmp_path: Path) -> None:
         "taper_s": 0.0,
         "direction_deg": 30.0,
     }
-    summary = run_case(Case.model_validate(CASE | {"sea": sea}), tmp_path / "out", folder=tmp_path)
+    summary = run_case(
+        Case.model_validate(CASE | {"sea": sea}, context={"folder": tmp_path}), tmp_path / "out"
+    )
     assert any("trend" in note for note in summary["waves"]["notes"])
     assert summary["waves"]["repeat_period_s"] == 40.0
     with xr.open_dataset(tmp_path / "out" / "results.nc") as data:

@@ -10,13 +10,13 @@ import pytest
 import offwind_pin as ow
 from offwind_pin.analysis.foundation.registry import FOUNDATIONS
 from offwind_pin.base.definition import Array
-from offwind_pin.loads.root_restraint import LinearRestraint
+from offwind_pin.loads.root_restraint import LinearRestraint, RootRestraint
 from offwind_pin.loads.soil import foundation as foundations
 from offwind_pin.loads.soil.foundation import Foundation
 
 
 @dataclass(frozen=True)
-class HardeningRestraint:
+class HardeningRestraint(RootRestraint):
     """A nonlinear restraint: springs that harden with the cube of the displacement."""
 
     stiffness: Array

@@ -170,7 +170,7 @@ def test_work_is_stored_or_heat(corners: list[tuple[float, float, float]]) -> No
     whole, steps = np.vstack([STILL, reactions]), np.diff(np.vstack([STILL, way]), axis=0)
     worked = float(np.sum((whole[:-1] + whole[1:]) / 2 * steps))
     scratch = np.zeros(6), np.zeros((6, 6)), np.zeros((6, 6))
-    _, stored = element.reaction_kernel(way[-1], STILL, element.numbers, memory, *scratch)
+    _, stored = element.reaction_kernel(way[-1], STILL, element.constants, memory, *scratch)
     assert worked == pytest.approx(stored + heat, abs=0.02 * (stored + heat) + 1e-6)
 
 

@@ -61,7 +61,7 @@ def test_ramp_acts_on_the_departure_from_the_mean(history: ow.LoadHistory) -> No
     """At rise 0 the mean acts, at 1 the history, half-way half of the departure."""
     mean = history.mean(0.0, 3.0)
     top = TowerTopLoad(115.0, history, mean)
-    none, full, half, early = top.rows(
+    none, full, half, early = top.time_inputs(
         np.array([3.0, 3.0, 3.0, 1.0]), np.array([0.0, 1.0, 0.5, 1.0])
     )
     assert_allclose(none, mean)

@@ -202,7 +202,7 @@ def test_lags_follow_their_differential_equations(
     def by_steps(steps: int) -> float:
         memory, still = np.zeros(load.memory_size), at_hub(disc)
         time = np.linspace(0, end, steps + 1)
-        for row in load.rows(time, np.ones_like(time))[:-1]:
+        for row in load.time_inputs(time, np.ones_like(time))[:-1]:
             load.commit_kernel(still.columns(), load.constants, row, memory)
         force = load.forces(end, still, 1.0, memory).force[0]
         return float(np.linalg.norm(force))
@@ -234,7 +234,7 @@ def test_zero_memory_is_equilibrium(system: ow.System, disc: RotorDisc) -> None:
 def test_only_the_departure_rises(disc: RotorDisc) -> None:
     """At rise 0 the mean wind acts, at 1 the history."""
     load = RotorThrust(disc, WindHistory(1.0, np.array([8.0, 10.0]), 9.0, "two"))
-    rows = load.rows(np.array([1.0, 1.0, 1.0]), np.array([0.0, 0.5, 1.0]))
+    rows = load.time_inputs(np.array([1.0, 1.0, 1.0]), np.array([0.0, 0.5, 1.0]))
     assert_allclose(rows[:, 1], [9.0, 9.5, 10.0])
 
 

@@ -1,7 +1,6 @@
 """Wind on the tower: profiles and gusts by hand, drag against quadrature, its effect at rest."""
 
 import itertools
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -19,7 +18,8 @@ from offwind_pin.loads.wind.profiles import (
     Profile,
     WindSeries,
 )
-from offwind_pin.loads.wind.tower_drag import TowerDrag, TowerWind
+from offwind_pin.loads.wind.tower_drag import TowerDrag
+from offwind_pin.loads.wind.tower_wind import TowerWind
 from offwind_pin.structure.section import outer_diameter
 
 CALM = TowerWind(12.0, 119.0, PowerLaw(0.14), 0.65)
@@ -52,7 +52,7 @@ def test_drag_is_the_integral_over_the_tower(
     system: ow.System, oc6: ow.Turbine, profile: Profile
 ) -> None:
     """Force and moment about still water of rho/2 Cd D U(z)^2, from the water to the bearing."""
-    load = tower_drag(system, replace(CALM, profile=profile))
+    load = tower_drag(system, CALM.replace(profile=profile))
     ends = [0.0, 1.0, *(station.z for member in oc6.members for station in member.stations)]
     ends = sorted({z for z in ends if z >= 0})
 
@@ -73,13 +73,13 @@ def test_drag_is_the_integral_over_the_tower(
 
 def test_direction_turns_the_force(system: ow.System) -> None:
     along = force_of(tower_drag(system, CALM))
-    turned = force_of(tower_drag(system, replace(CALM, direction=0.7)))
+    turned = force_of(tower_drag(system, CALM.replace(direction_deg=np.degrees(0.7))))
     assert turned[:, 0] == pytest.approx(np.cos(0.7) * along[:, 0], rel=1e-13)
     assert turned[:, 1] == pytest.approx(np.sin(0.7) * along[:, 0], rel=1e-13)
 
 
 def test_a_tower_that_moves_with_the_wind_feels_none(system: ow.System) -> None:
-    load = tower_drag(system, replace(CALM, profile=PowerLaw(0.0)))
+    load = tower_drag(system, CALM.replace(profile=PowerLaw(0.0)))
     assert np.all(force_of(load, velocity=12.0) == 0)
     with_it, against = (force_of(load, velocity=v)[:, 0].sum() for v in (2.0, -2.0))
     assert with_it / against == pytest.approx((10 / 14) ** 2, rel=1e-13)
@@ -124,8 +124,8 @@ def test_the_gust_rises_with_the_simulation(
     system: ow.System, gust: ExtremeOperatingGust | WindSeries
 ) -> None:
     """At a rise of 0 the mean blows alone; the gust adds the same speed at every height."""
-    gusty = tower_drag(system, replace(CALM, profile=PowerLaw(0.0), gust=gust))
-    steady = tower_drag(system, replace(CALM, profile=PowerLaw(0.0)))
+    gusty = tower_drag(system, CALM.replace(profile=PowerLaw(0.0), gust=gust))
+    steady = tower_drag(system, CALM.replace(profile=PowerLaw(0.0)))
     assert np.array_equal(force_of(gusty, 8.0, 0.0), force_of(steady))
     more = float(gust.at(np.array([8.0]))[0])
     assert abs(more) > 0.5
@@ -135,7 +135,7 @@ def test_the_gust_rises_with_the_simulation(
 
 def test_the_base_bears_the_wind(system: ow.System) -> None:
     """Statics: shear and moment at the mudline are those of the forces on the deflected tower."""
-    load = tower_drag(system, replace(CALM, speed=40.0))
+    load = tower_drag(system, CALM.replace(speed=40.0))
     bare, blown = ow.static(system), ow.static(system, loads=[load])
     force = force_of(load)[:, 0]
     change = blown.mudline_load - bare.mudline_load
@@ -157,34 +157,3 @@ def test_a_steady_wind_in_time_stays_at_its_static_state(system: ow.System) -> N
     static = ow.static(system, loads=[load])
     top = data["displacement"].sel(direction="x").isel(height=-1).to_numpy()
     assert top == pytest.approx(np.full(len(top), static.tower_top_displacement[0]), rel=1e-6)
-
-
-def bad(**keys: object) -> TowerWind:
-    return replace(CALM, **keys)  # type: ignore[arg-type]
-
-
-@pytest.mark.parametrize(
-    ("make", "words"),
-    [
-        (lambda: bad(speed=-1.0), ["speed", "-1.0"]),
-        (lambda: bad(reference_height=0.0), ["reference_height", "positive"]),
-        (lambda: bad(direction=np.nan), ["direction", "nan"]),
-        (lambda: bad(air_density=np.inf), ["air_density", "inf"]),
-        (lambda: PowerLaw(14.0), ["exponent", "14.0", "0 to 1"]),
-        (lambda: LogLaw(2.0), ["roughness", "2.0"]),
-        (lambda: ExtremeOperatingGust(0.0, 1.0), ["size", "positive"]),
-        (lambda: WindSeries(np.array([0.0, 0.0]), np.zeros(2)), ["rising"]),
-        (lambda: WindSeries(np.array([0.0, 1.0]), np.zeros(3)), ["one length"]),
-        (lambda: WindSeries(np.array([0.0, 1.0]), np.array([0.0, np.nan])), ["NaN"]),
-        (
-            lambda: ExtremeOperatingGust.of_class(
-                60.0, 119.0, 198.0, reference_speed=50.0, turbulence=0.14, start=0.0
-            ),
-            ["hub_speed", "56"],
-        ),
-    ],
-)
-def test_bad_wind_is_refused(make, words: list[str]) -> None:
-    with pytest.raises(ow.InputError) as error:
-        make()
-    assert all(word in str(error.value) for word in words)

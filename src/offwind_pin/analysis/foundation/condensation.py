@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import Literal, get_args
+from typing import ClassVar, Literal, get_args
 
 import numpy as np
 
@@ -14,18 +14,18 @@ from offwind_pin.base.definition import Array
 from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError
 from offwind_pin.definitions.turbine import Turbine
-from offwind_pin.dynamics.acting_loads import split_memory
+from offwind_pin.dynamics.acting_loads import compiled_loads, split_memory
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.point_load import (
     BY_POSITION,
     MOMENT_BY_TURN,
+    KernelLoad,
     PointForces,
     PointLoad,
     PointMotion,
     PointTangents,
-    as_argument,
 )
-from offwind_pin.loads.root_restraint import as_kernel_restraint
+from offwind_pin.loads.root_restraint import FREE
 from offwind_pin.loads.tower_top.load_history import constant_load
 
 CondensedStiffness = Literal["tangent", "secant"]
@@ -115,7 +115,7 @@ def condense(
     if system.chain.top == pile.chain.top:  # the topmost section has its own node's soil above it
         load = load - _soil_at_head(pile, q, about.memory)
     acting = [constant_load(pile.chain.top, load)]
-    equations = pile.equations(acting, np.inf, about.memory)
+    equations = pile.equations(acting, None, about.memory)
     lack = float(np.max(np.abs(equations.residual(0.0, q, rest, rest)))) / load_scale(system)
     if lack > _OUT_OF_BALANCE:
         allowed = "a static state of this system, in balance"
@@ -127,7 +127,7 @@ def condense(
             for springs, past in _soil_and_past(pile, about.memory)
         )
         pile = replace(pile, foundation=replace(pile.foundation, soil=soil))
-        equations = pile.equations(acting, ramp_time=np.inf)
+        equations = pile.equations(acting, ramp_time=None)
     tangent, _ = equations.tangents(0.0, q, rest)
     jacobian = axis_jacobian(equations.chain_motion(q, rest), pile.chain.top)
     flexibility = jacobian @ np.linalg.solve(tangent, jacobian.T)
@@ -141,7 +141,7 @@ def condense(
 
 
 @dataclass(frozen=True, eq=False)
-class SecantSprings:
+class SecantSprings(PointLoad):
     """Linear springs in place of nonlinear ones, with the same forces and moments in one state.
 
     Attributes
@@ -156,11 +156,13 @@ class SecantSprings:
     rotational: Array
     name: str = "secant soil"
 
+    moves_with_ground: ClassVar[bool] = True
+
     @staticmethod
-    def of(springs: PointLoad, motion: PointMotion, past: dict[str, Array]) -> SecantSprings:
+    def of(springs: KernelLoad, motion: PointMotion, past: Array) -> SecantSprings:
         """Secants of springs in a state, across and along the pile; tangents at rest."""
-        forces = springs.forces(0.0, motion, 0.0, **past)
-        blocks = springs.tangents(0.0, motion, 0.0, **past).blocks()
+        forces = springs.forces(0.0, motion, 0.0, past)
+        blocks = springs.tangents(0.0, motion, 0.0, past).blocks()
         turn = np.zeros_like(motion.axis) if motion.turn is None else motion.turn
         return SecantSprings(
             springs.height,
@@ -168,11 +170,11 @@ class SecantSprings:
             _secants(forces.moment, turn, blocks[:, MOMENT_BY_TURN]),
         )
 
-    def forces(self, time: float, motion: PointMotion, rise: float) -> PointForces:
+    def forces(self, time: float, motion: PointMotion, ramp_factor: float) -> PointForces:
         turn = np.zeros_like(motion.axis) if motion.turn is None else motion.turn
         return PointForces(-self.stiffness * motion.displacement, -self.rotational * turn)
 
-    def tangents(self, time: float, motion: PointMotion, rise: float) -> PointTangents:
+    def tangents(self, time: float, motion: PointMotion, ramp_factor: float) -> PointTangents:
         return replace(
             PointTangents.zeros(len(self.height)),
             stiffness=-self.stiffness[:, :, None] * np.eye(3),
@@ -193,20 +195,20 @@ def _secants(pull: Array, moved: Array, tangents: Array) -> Array:
 
 def _soil_at_head(pile: System, q: Array, memory: Array) -> Array:
     """(6,) force and moment of the soil at the node that lies at the mudline, in N and N m."""
-    motion = pile.equations([], ramp_time=np.inf).chain_motion(q, np.zeros(pile.nv))
+    motion = pile.equations([], ramp_time=None).chain_motion(q, np.zeros(pile.nv))
     total = np.zeros(6)
     for springs, past in _soil_and_past(pile, memory):
-        found = springs.forces(0.0, motion.points_at(springs.height), 0.0, **past)
+        found = springs.forces(0.0, motion.points_at(springs.height), 0.0, past)
         at_head = springs.height == pile.chain.top
         total += np.concatenate([found.force[at_head].sum(0), found.moment[at_head].sum(0)])
     return total
 
 
-def _soil_and_past(pile: System, memory: Array) -> Iterator[tuple[PointLoad, dict[str, Array]]]:
-    """Each load of the soil, with what it keeps of its past as an argument if it keeps anything."""
-    soil, root = pile.foundation.soil, as_kernel_restraint(pile.foundation.root)
-    for springs, past in zip(soil, split_memory(soil, root, memory)[:-1], strict=True):
-        yield springs, as_argument(springs, past)
+def _soil_and_past(pile: System, memory: Array) -> Iterator[tuple[KernelLoad, Array]]:
+    """Each load of the soil, with what it keeps of its past."""
+    soil, root = compiled_loads(pile.foundation.soil), pile.foundation.root
+    held = FREE if root is None else root.compiled()
+    return zip(soil, split_memory(soil, held, memory)[:-1], strict=True)
 
 
 def _displacement(pile: System, about: StaticResult) -> Array:

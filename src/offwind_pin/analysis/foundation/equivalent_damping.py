@@ -10,8 +10,8 @@ from numpy.typing import ArrayLike
 
 from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError
-from offwind_pin.loads.soil.curves.laws import SoilCurves
-from offwind_pin.loads.soil.springs.elastic import ROCKING, TORSIONAL, SoilSprings
+from offwind_pin.loads.point_load import KernelLoad
+from offwind_pin.loads.soil.springs.elastic import SoilSprings, SpringComponent
 
 _STEPS = 400
 """In a cycle. What turns back at the peaks leaves an error of second order, 2e-5 of the energy."""
@@ -57,8 +57,7 @@ def equivalent_damping(
         for j, rate in enumerate(frequency):
             energy[i, j], secant[i] = _cycle(spring, float(size), 2 * np.pi * float(rate))
     ratio = energy / (2 * np.pi * secant * amplitude**2)[:, None]
-    turns = springs.direction in (ROCKING, TORSIONAL)
-    unit, stiffness_unit = ("rad", "N m/rad") if turns else ("m", "N/m")
+    unit, stiffness_unit = ("rad", "N m/rad") if springs.component.turns else ("m", "N/m")
     both = ("amplitude", "frequency")
     return xr.Dataset(
         {
@@ -83,35 +82,36 @@ def _cycle(spring: SoilSprings, amplitude: float, rate: float) -> tuple[float, f
 
     rate : 2 pi f in rad/s
     """
-    memory = np.zeros(spring.memory_size)
+    (load,), component = spring.compiled(), spring.component
+    memory = np.zeros(load.memory_size)
     for share in np.linspace(0.0, 1.0, _STEPS // 4 + 1):
-        motion = _motion(spring, share * amplitude, 0.0)
-        spring.commit_kernel(motion, spring.constants, np.zeros(0), memory)
-    peak = _force(spring, _motion(spring, amplitude, 0.0), memory)
+        motion = _motion(component, share * amplitude, 0.0)
+        load.commit_kernel(motion, load.constants, np.zeros(0), memory)
+    peak = _force(load, component, _motion(component, amplitude, 0.0), memory)
     phase = 2 * np.pi * np.arange(1, _STEPS + 1) / _STEPS
     power = np.empty(_STEPS)
     for k, angle in enumerate(phase):
         speed = -rate * amplitude * np.sin(angle)
-        motion = _motion(spring, amplitude * np.cos(angle), speed)
-        power[k] = _force(spring, motion, memory) * speed
-        spring.commit_kernel(motion, spring.constants, np.zeros(0), memory)
+        motion = _motion(component, amplitude * np.cos(angle), speed)
+        power[k] = _force(load, component, motion, memory) * speed
+        load.commit_kernel(motion, load.constants, np.zeros(0), memory)
     # equal weights are the trapezoidal rule: the speed vanishes at both ends
     return float(np.sum(power) * 2 * np.pi / rate / _STEPS), peak / amplitude
 
 
-def _motion(spring: SoilSprings, deflection: float, speed: float) -> Array:
-    """(1, 21) motion of the spring's point, along the first component of its direction."""
-    row = np.zeros((1, _COLUMNS))
-    row[0, spring.direction.deflection] = deflection
-    row[0, spring.direction.rate] = speed
-    return row
+def _motion(component: SpringComponent, deflection: float, speed: float) -> Array:
+    """(1, 21) motion of the spring's point, along the first of its directions."""
+    motion = np.zeros((1, _COLUMNS))
+    motion[0, component.deflection] = deflection
+    motion[0, component.rate] = speed
+    return motion
 
 
-def _force(spring: SoilSprings, motion: Array, memory: Array) -> float:
-    """Force in N, or moment in N m, that holds the spring there."""
+def _force(load: KernelLoad, component: SpringComponent, motion: Array, memory: Array) -> float:
+    """Force in N, or moment in N m, that keeps the spring there."""
     force = np.zeros((1, 6))
-    spring.force_kernel(motion, spring.constants, np.zeros(0), memory, force)
-    return -float(force[0, spring.direction.force])
+    load.force_kernel(motion, load.constants, np.zeros(0), memory, force)
+    return -float(force[0, component.force])
 
 
 def _single(springs: SoilSprings, node: int) -> SoilSprings:
@@ -119,7 +119,7 @@ def _single(springs: SoilSprings, node: int) -> SoilSprings:
     count = len(springs.height)
     if not 0 <= node < count:
         raise InputError("node", node, f"0 to {count - 1}", "Count from the mudline down.")
-    curves = SoilCurves(springs.curves.numbers[[node]])
+    curves = springs.curves.at(np.array([node]))
     if springs.curves.secant(np.zeros(count))[node] <= 0:
         raise InputError(
             "node",

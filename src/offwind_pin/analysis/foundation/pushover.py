@@ -206,7 +206,7 @@ class _Press:
 
     def _equations(self, load: float) -> Equations:
         acting = constant_load(self._height, load * self.direction)
-        return self.system.equations([acting], ramp_time=np.inf)
+        return self.system.equations([acting], ramp_time=None)
 
     def _head(self, x: Array) -> PointMotion:
         motion = self._equations(0.0).chain_motion(x[:-1], self.rest)

@@ -1,9 +1,10 @@
-"""The five foundations by name."""
+"""Foundations by name."""
 
 from __future__ import annotations
 
 import logging
 from collections.abc import Callable
+from dataclasses import dataclass
 
 from offwind_pin.analysis.foundation.equivalent import apparent_fixity, macro_element
 from offwind_pin.base.errors import InputError
@@ -17,13 +18,48 @@ from offwind_pin.loads.soil.foundation import (
 
 _log = logging.getLogger(__name__)
 
-FOUNDATIONS: dict[str, Callable[[Turbine], Foundation]] = {
-    "clamped": clamped,
-    "apparent_fixity": apparent_fixity,
-    "coupled_springs": coupled_springs,
-    "distributed_springs": distributed_springs,
-    "macro_element": macro_element,
-}
+
+@dataclass(frozen=True)
+class FoundationKind:
+    """A kind of foundation that has a name.
+
+    Attributes
+    ----------
+    make : the foundation of a turbine
+    is_described : whether a turbine's soil has the numbers for it
+    """
+
+    make: Callable[[Turbine], Foundation]
+    is_described: Callable[[Turbine], bool]
+
+    def __call__(self, turbine: Turbine) -> Foundation:
+        return self.make(turbine)
+
+
+FOUNDATIONS: dict[str, FoundationKind] = {}
+
+
+def register_foundation(
+    name: str,
+    make: Callable[[Turbine], Foundation],
+    is_described: Callable[[Turbine], bool] | None = None,
+) -> None:
+    """Give a kind of foundation a name, for :func:`build`, case files and the commands.
+
+    Parameters
+    ----------
+    make : the foundation of a turbine; raises :class:`InputError` where the turbine lacks something
+    is_described : whether a turbine's soil has the numbers for it; always unless given
+
+    Raises
+    ------
+    InputError : another kind has the name
+    """
+    if name in FOUNDATIONS and FOUNDATIONS[name].make is not make:
+        raise InputError(
+            "foundation", name, f"a name other than {', '.join(FOUNDATIONS)}", "Choose another."
+        )
+    FOUNDATIONS[name] = FoundationKind(make, is_described or _always)
 
 
 def make_foundation(turbine: Turbine, kind: str | Foundation) -> Foundation:
@@ -46,13 +82,31 @@ def make_foundation(turbine: Turbine, kind: str | Foundation) -> Foundation:
 
 def described_foundations(turbine: Turbine) -> list[str]:
     """Names of those that the turbine's soil has the numbers for."""
-    soil = turbine.soil
-    springs = soil.distributed_springs is not None
-    known = {
-        "clamped": True,
-        "apparent_fixity": springs or soil.coupled_springs is not None,
-        "coupled_springs": soil.coupled_springs is not None,
-        "distributed_springs": springs,
-        "macro_element": springs or (soil.macro_element is not None),
-    }
-    return [name for name in FOUNDATIONS if known.get(name, True)]
+    return [name for name, kind in FOUNDATIONS.items() if kind.is_described(turbine)]
+
+
+def _always(turbine: Turbine) -> bool:
+    return True
+
+
+def _has_springs(turbine: Turbine) -> bool:
+    return turbine.soil.distributed_springs is not None
+
+
+def _has_stiffness(turbine: Turbine) -> bool:
+    return turbine.soil.coupled_springs is not None
+
+
+register_foundation("clamped", clamped)
+register_foundation(
+    "apparent_fixity",
+    apparent_fixity,
+    lambda turbine: _has_springs(turbine) or _has_stiffness(turbine),
+)
+register_foundation("coupled_springs", coupled_springs, _has_stiffness)
+register_foundation("distributed_springs", distributed_springs, _has_springs)
+register_foundation(
+    "macro_element",
+    macro_element,
+    lambda turbine: _has_springs(turbine) or turbine.soil.macro_element is not None,
+)

@@ -1,30 +1,18 @@
-"""The load at the tower top as a case file gives it: files, the synthetic one, a running rotor."""
+"""The load at the tower top of a load case: files, the synthetic one, a running rotor."""
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from offwind_pin.base.definition import Definition, NonNegative, Number, Positive
+from offwind_pin.base.definition import Definition, File, Number
 from offwind_pin.formats.openfast.output import SUFFIXES
-from offwind_pin.loads.wind.rotor_effective_wind import normal_turbulence
-from offwind_pin.loads.wind.rotor_thrust import CONTROL_TIME, Control
+from offwind_pin.loads.wind.rotor_load import RotorLoad
+from offwind_pin.loads.wind.synthetic_thrust import SyntheticWind
 
 Component = Literal["Fx", "Fy", "Fz", "Mx", "My", "Mz"]
 _OPENFAST_ONLY = ("channels", "frame", "azimuth_channel")
-
-
-class SyntheticTowerTopLoad(Definition):
-    """The package's own generator; see :class:`SyntheticWind`."""
-
-    kind: Literal["synthetic"]
-    wind_speed: Annotated[Positive, Field(ge=1, le=25)] = Field(alias="wind_speed_m_per_s")
-    blade_passing_frequency: Annotated[Positive, Field(le=5)] = Field(
-        alias="blade_passing_frequency_hz"
-    )
-    turbulence_intensity: Annotated[NonNegative, Field(le=1)] = 0.10
 
 
 class FileSettings(Definition):
@@ -60,7 +48,7 @@ class FileSettings(Definition):
 class LoadFile(FileSettings):
     """One file; a relative path starts at the case file."""
 
-    file: Path
+    file: File
 
     @property
     def is_openfast(self) -> bool:
@@ -76,17 +64,26 @@ class TowerTopLoadFile(FileSettings):
     """
 
     kind: Literal["file"]
-    file: Path | None = None
+    file: File | None = None
     files: tuple[LoadFile, ...] = ()
 
     @model_validator(mode="after")
     def _one_or_many(self) -> TowerTopLoadFile:
         if (self.file is None) == (len(self.files) == 0):
-            raise ValueError("give either file, or a list of files")
+            raise ValueError(
+                "the load is given twice or not at all; give either file, or a list of files"
+            )
         if self.files:
-            given = self.model_fields_set & FileSettings.model_fields.keys() - {"source"}
+            given = [
+                name
+                for name, field in FileSettings.model_fields.items()
+                if name != "source" and getattr(self, name) != field.default
+            ]
             if given:
-                raise ValueError(f"with files, give {', '.join(sorted(given))} to each of them")
+                raise ValueError(
+                    f"{', '.join(given)} cannot be given beside files; give "
+                    f"{', '.join(given)} to each of them"
+                )
         for entry in self.entries:
             needless = [
                 key for key in _OPENFAST_ONLY if getattr(entry, key) not in (None, "yaw_bearing")
@@ -108,7 +105,7 @@ class TowerTopLoadFile(FileSettings):
         if self.file is None:
             return self.files
         settings = {name: getattr(self, name) for name in FileSettings.model_fields}
-        return (LoadFile.model_construct(file=self.file, **settings),)
+        return (LoadFile(file=self.file, **settings),)
 
 
 class OpenFastLoad(TowerTopLoadFile):
@@ -120,36 +117,7 @@ class OpenFastLoad(TowerTopLoadFile):
         return True
 
 
-class RotorLoad(Definition):
-    """Thrust of the turbine's own rotor in a turbulent wind: ``RotorThrust`` in ``RotorWind``."""
-
-    kind: Literal["rotor"]
-    wind_speed: Annotated[Positive, Field(ge=1, le=60)] = Field(alias="wind_speed_m_per_s")
-    turbulence_class: Literal["A", "B", "C"] | None = None
-    turbulence_intensity: Annotated[NonNegative, Field(le=1)] | None = None
-    shear_exponent: Annotated[NonNegative, Field(le=1)] = 0.14
-    tower_shadow: bool = True
-    control: Control = "lagged"
-    control_time: Annotated[Positive, Field(le=1000)] = Field(
-        alias="control_time_s", default=CONTROL_TIME
-    )
-    inflow_lag: bool = False
-
-    @model_validator(mode="after")
-    def _one_turbulence(self) -> RotorLoad:
-        if (self.turbulence_class is None) == (self.turbulence_intensity is None):
-            raise ValueError("give either turbulence_class (A, B or C) or turbulence_intensity")
-        return self
-
-    @property
-    def intensity(self) -> float:
-        """Standard deviation of the wind over its mean."""
-        if self.turbulence_class is None:
-            return float(self.turbulence_intensity or 0.0)
-        return normal_turbulence(self.wind_speed, self.turbulence_class) / self.wind_speed
-
-
 TowerTopLoadChoice = Annotated[
-    SyntheticTowerTopLoad | TowerTopLoadFile | OpenFastLoad | RotorLoad,
+    SyntheticWind | TowerTopLoadFile | OpenFastLoad | RotorLoad,
     Field(discriminator="kind"),
 ]

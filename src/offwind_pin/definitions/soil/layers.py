@@ -6,10 +6,11 @@ whatever the scour.
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal, get_args
 
 import numpy as np
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import AfterValidator, Field, GetCoreSchemaHandler, model_validator
+from pydantic_core import CoreSchema, core_schema
 
 from offwind_pin.base.definition import Definition, NonNegative, Number, Positive
 from offwind_pin.definitions.soil.depth_profile import DepthProfile
@@ -32,16 +33,31 @@ _JUDGED_THICKNESS = np.linspace(0.0, 10.0, 11)
 """Depths below a layer's top, in m, at which its stiffness and strength are compared."""
 
 
-class _Layer(Definition):
-    """What every layer has."""
+Loading = Literal["static", "cyclic"]
 
+
+class SoilLayer(Definition):
+    """A layer of the ground: base class of the package's and of a user's own.
+
+    A subclass adds its parameters, and a field ``model`` whose ``Literal`` is the name in files.
+    """
+
+    model: str
     top: NonNegative = Field(alias="top_m")
     submerged_unit_weight: Annotated[Positive, AfterValidator(check_unit_weight)] = Field(
         alias="submerged_unit_weight_n_per_m3"
     )
 
+    def check_loading(self, loading: Loading) -> None:
+        """Refuse a kind of loading that the layer's curves are not for.
 
-class ApiSand(_Layer):
+        Raises
+        ------
+        ValueError : with the fault, a semicolon and the remedy
+        """
+
+
+class ApiSand(SoilLayer):
     """Sand of API RP 2GEO: p = A p_u tanh(k z y / (A p_u)).
 
     ``initial_modulus`` is k, the rise of the initial modulus with depth; without it k follows from
@@ -57,7 +73,7 @@ class ApiSand(_Layer):
     )
 
 
-class MatlockClay(_Layer):
+class MatlockClay(SoilLayer):
     """Soft clay of Matlock (1970), as in API RP 2GEO."""
 
     model: Literal["matlock_clay"]
@@ -68,7 +84,7 @@ class MatlockClay(_Layer):
     )
 
 
-class StiffClay(_Layer):
+class StiffClay(SoilLayer):
     """Stiff clay without free water, Reese and Welch (1975): p = p_u / 2 (y / y50)^(1/4)."""
 
     model: Literal["stiff_clay"]
@@ -76,8 +92,15 @@ class StiffClay(_Layer):
     strain_50: Strain50
     cycles: Annotated[Number, Field(ge=1, le=1e9)] | None = None
 
+    def check_loading(self, loading: Loading) -> None:
+        if (self.cycles is None) == (loading == "cyclic"):
+            raise ValueError(
+                f"a stiff_clay layer with cycles = {self.cycles} under {loading} loading; cyclic "
+                "loading needs the number of cycles, static loading has none"
+            )
 
-class Pisa(_Layer):
+
+class Pisa(SoilLayer):
     """Soil reactions of the PISA project, for monotonic loading of monopiles.
 
     Clay takes the undrained shear strength, sand the relative density.
@@ -113,6 +136,13 @@ class Pisa(_Layer):
             check_rigidity(self.shear_modulus.at(depth), self.undrained_shear_strength.at(depth))
         return self
 
+    def check_loading(self, loading: Loading) -> None:
+        if loading == "cyclic":
+            raise ValueError(
+                "PISA's soil reactions are valid for monotonic loading, and loading is cyclic; set "
+                "loading: static, or use api_sand, matlock_clay or stiff_clay"
+            )
+
     @property
     def reactions(self) -> PisaParameters:
         """The layer's parameters, published or its own."""
@@ -121,15 +151,31 @@ class Pisa(_Layer):
         return CALIBRATIONS[str(self.calibration)]
 
 
-Layer = ApiSand | MatlockClay | StiffClay | Pisa
+LAYER_KINDS: list[type[SoilLayer]] = [ApiSand, MatlockClay, StiffClay, Pisa]
+"""Kinds of layers that files and :class:`LayeredGround` accept; see ``register_layer``."""
+
+
+class _OfKnownKind:
+    """Makes pydantic choose the class of a layer by its ``model``."""
+
+    def __get_pydantic_core_schema__(
+        self, source: Any, handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
+        choices = {model_name(kind): handler(kind) for kind in LAYER_KINDS}
+        return core_schema.tagged_union_schema(choices, discriminator="model")
+
+
+def model_name(kind: type[SoilLayer]) -> str:
+    """Name of a kind of layer in files."""
+    return str(get_args(kind.model_fields["model"].annotation)[0])
 
 
 class LayeredGround(Definition):
     """p-y curves from the layers of the ground; exactly on a boundary the layer below holds."""
 
     kind: Literal["layers"]
-    loading: Literal["static", "cyclic"]
-    layers: tuple[Annotated[Layer, Field(discriminator="model")], ...]
+    loading: Loading
+    layers: tuple[Annotated[SoilLayer, _OfKnownKind()], ...]
 
     @model_validator(mode="after")
     def _layers_fit(self) -> LayeredGround:
@@ -146,16 +192,5 @@ class LayeredGround(Definition):
                 f"top_m of the layers are {tops}; they must rise strictly, from the mudline down"
             )
         for layer in self.layers:
-            if isinstance(layer, Pisa) and self.loading == "cyclic":
-                raise ValueError(
-                    "PISA's soil reactions hold for monotonic loading, and loading is cyclic; set "
-                    "loading: static, or use api_sand, matlock_clay or stiff_clay"
-                )
-            if isinstance(layer, StiffClay) and (layer.cycles is None) == (
-                self.loading == "cyclic"
-            ):
-                raise ValueError(
-                    f"a stiff_clay layer with cycles = {layer.cycles} under {self.loading} "
-                    "loading; cyclic loading needs the number of cycles, static loading has none"
-                )
+            layer.check_loading(self.loading)
         return self

@@ -6,13 +6,12 @@ the weak top curves down with it; those of layers from the original one (see ``s
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated, Literal
 
 import numpy as np
 from pydantic import AfterValidator, Discriminator, Field, Tag, model_validator
 
-from offwind_pin.base.definition import Array, Definition, NonNegative, Positive, Vector6
+from offwind_pin.base.definition import Array, Definition, File, NonNegative, Positive, Vector6
 from offwind_pin.definitions.soil.depth_profile import DepthProfile
 from offwind_pin.definitions.soil.layers import LayeredGround
 from offwind_pin.definitions.soil.ranges import check_skin_friction
@@ -68,7 +67,7 @@ class CurveTable(Definition):
     """
 
     kind: Literal["table"]
-    file: Path
+    file: File
     boundaries: tuple[Positive, ...] = Field(alias="boundaries_m", default=())
 
     @model_validator(mode="after")
@@ -85,7 +84,7 @@ class ShaftTable(Definition):
     """t-z curves by depth from a CSV file with columns ``depth_m, z_m, t_n_per_m``."""
 
     kind: Literal["table"]
-    file: Path
+    file: File
 
 
 class _ShaftFriction(Definition):
@@ -134,7 +133,7 @@ class TorsionTable(Definition):
     """Curves by depth from a CSV file with columns ``depth_m, twist_rad, torque_nm_per_m``."""
 
     kind: Literal["table"]
-    file: Path
+    file: File
 
 
 class ApiTorsion(_ShaftFriction):
@@ -160,7 +159,7 @@ class BearingTable(Definition):
     """Q-z curve from a CSV file with columns ``z_m, q_n``."""
 
     kind: Literal["table"]
-    file: Path
+    file: File
 
 
 class ApiBearing(Definition):
@@ -311,7 +310,7 @@ class MacroElementCalibration(Definition):
     surfaces: Annotated[int, Field(ge=5, le=200)] = 40
     load_arm: NonNegative | None = Field(alias="load_arm_m", default=None)
     until_displacement: Positive | None = Field(alias="until_displacement_m", default=None)
-    file: Path | None = None
+    file: File | None = None
 
     @model_validator(mode="after")
     def _one_path(self) -> MacroElementCalibration:

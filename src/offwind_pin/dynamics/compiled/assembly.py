@@ -37,7 +37,7 @@ def make_model(
     height = np.concatenate([np.zeros(0), *(load.height for load in loads)])
     carrier = chain.body_at(height)
     origin = chain.origin
-    widths = [load.rows(np.zeros(1), np.zeros(1)).shape[1] for load in loads]
+    widths = [len(load.mean_inputs()) for load in loads]
     constants = [np.asarray(load.constants, dtype=float).ravel() for load in loads]
     sizes = [*(load.memory_size for load in loads), root.memory_size]
     return Model(
@@ -63,7 +63,7 @@ def make_model(
         restraint_commit=(
             _NO_KERNEL if root.commit_kernel is nothing_kept_by_root else root.commit_kernel.address
         ),
-        restraint_constants=np.ascontiguousarray(root.numbers, dtype=float),
+        restraint_constants=np.ascontiguousarray(root.constants, dtype=float),
         point_body=carrier,
         point_offset=height - origin[carrier],
         point_height=height,

@@ -17,6 +17,7 @@ from offwind_pin.base.definition import Array
 from offwind_pin.base.kernels import announce
 from offwind_pin.base.records import Count, Record
 from offwind_pin.dynamics.acting_loads import all_loads, grounding, smooth_ramp
+from offwind_pin.dynamics.base_excitation import GROUND_NUMBERS
 from offwind_pin.dynamics.compiled.assembly import make_model
 from offwind_pin.dynamics.compiled.model import Data, Factorisation, Model, State
 from offwind_pin.dynamics.compiled.newton_matrix import (
@@ -40,9 +41,8 @@ from offwind_pin.dynamics.compiled.residual import commit, evaluate, evaluate_ke
 from offwind_pin.dynamics.resting_axis import RestingAxis
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.earthquake.ground_motion import GroundMotion
-from offwind_pin.loads.point_load import PointLoad, nothing_stored
-from offwind_pin.loads.python_load import PythonLoad, as_kernel_load
-from offwind_pin.loads.root_restraint import as_kernel_restraint
+from offwind_pin.loads.point_load import PointLoad
+from offwind_pin.loads.root_restraint import FREE
 from offwind_pin.solvers import generalized_alpha
 from offwind_pin.solvers.generalized_alpha import residual as evaluated
 from offwind_pin.structure.chain import NDArrayInt
@@ -76,7 +76,9 @@ class CompiledChain:
     data : of the state last evaluated
     state : with the memory of soil and foundation, which :meth:`residual` and others take from it
     factors : the iteration matrix last factorised
-    loads : soil, water and what was given, in compiled form
+    acting : loads of water and soil, and those given
+    parts : of each of them, as compiled code sees it
+    loads : all these parts
     soil : nodes at which the foundation's soil acts
     ground_motion : of the ground below, or None
     """
@@ -85,7 +87,7 @@ class CompiledChain:
         self,
         system: System,
         loads: Sequence[PointLoad] = (),
-        ramp_time: float = 0.0,
+        ramp_time: float | None = 0.0,
         ground_motion: GroundMotion | None = None,
     ) -> None:
         announce()
@@ -93,12 +95,14 @@ class CompiledChain:
         self.ramp_time = ramp_time
         self.ground_motion = ground_motion
         self._given = tuple(loads)
-        everything = all_loads(system, loads)
-        self.loads = [as_kernel_load(load) for load in everything]
-        self.soil = make_soil_nodes(everything, system.foundation.soil)
-        root = as_kernel_restraint(system.foundation.root)
+        self.acting = all_loads(system, loads)
+        self.parts = [load.compiled() for load in self.acting]
+        self.loads = [part for parts in self.parts for part in parts]
+        self.soil = make_soil_nodes(self.loads)
+        restraint = system.foundation.root
+        root = FREE if restraint is None else restraint.compiled()
         self._root = root  # known to the model by its place in a register only
-        ground = grounding(system, everything, ground_motion)
+        ground = grounding(system, self.loads, ground_motion)
         self.model = make_model(system, self.loads, root, ground)
         self.data, self.state = Data.of(self.model), State.of(self.model)
         self.factors = Factorisation.of(self.model)
@@ -115,11 +119,18 @@ class CompiledChain:
 
         time : (t,) in s
         """
-        rise = smooth_ramp(time, self.ramp_time)
-        parts = [np.asarray(time)[:, None], *(load.rows(time, rise) for load in self.loads)]
+        ramp_factor = smooth_ramp(time, self.ramp_time)
+        inputs = (load.time_inputs(time, ramp_factor) for load in self.loads)
+        parts = [np.asarray(time)[:, None], *inputs]
         if self.ground_motion is not None:
             parts.insert(1, self.ground_motion.motion(time).reshape(len(time), -1))
         return np.ascontiguousarray(np.hstack(parts))
+
+    def mean_inputs(self) -> Array:
+        """(1 + w,) the same of the means of the loads, on ground at rest."""
+        levels = 0 if self.ground_motion is None else len(self.ground_motion.levels)
+        parts = [np.zeros(1 + GROUND_NUMBERS * levels)]
+        return np.concatenate([*parts, *(load.mean_inputs() for load in self.loads)])
 
     def residual(self, time_inputs: Array, q: Array, v: Array, a: Array) -> Array:
         """(nv,) generalised forces out of balance, in N and N m.
@@ -233,15 +244,13 @@ class CompiledChain:
     @property
     def _energies(self) -> NDArrayInt:
         """(L,) addresses of the loads' energy kernels; 0 for a load that stores none."""
-        kernels = [load.energy_kernel for load in self.loads]
-        return np.array(
-            [0 if kernel is nothing_stored else kernel.address for kernel in kernels], dtype=np.intp
-        )
+        addresses = [load.energy_kernel.address if load.stores_energy else 0 for load in self.loads]
+        return np.array(addresses, dtype=np.intp)
 
     @property
     def stores(self) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
         """(L,) whether each load stores energy, and so does no work of its own."""
-        return np.array([load.energy_kernel is not nothing_stored for load in self.loads], bool)
+        return np.array([load.stores_energy for load in self.loads], bool)
 
     def run(self, recorder: Recorder) -> Run:
         """What generalised-alpha works on."""
@@ -299,9 +308,7 @@ class CompiledChain:
             yield self
         finally:
             for load in self.loads:
-                if isinstance(load, PythonLoad) and load.failure is not None:
-                    failure, load.failure = load.failure, None
-                    raise failure
+                load.raise_failure()
 
 
 _evaluate, _factorise = evaluate_kernel.call, factorise_kernel.call

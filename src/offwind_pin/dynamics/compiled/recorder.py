@@ -18,7 +18,6 @@ from offwind_pin.base.records import (
     Numbers3,
     Record,
 )
-from offwind_pin.dynamics.base_excitation import is_soil
 from offwind_pin.dynamics.compiled.model import Model
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.point_load import PointLoad
@@ -198,15 +197,15 @@ def make_segments(
     )
 
 
-def make_soil_nodes(loads: Sequence[PointLoad], soil: tuple[PointLoad, ...]) -> SoilNodes:
-    """Nodes of a foundation's soil among all the loads of a system."""
+def make_soil_nodes(loads: Sequence[PointLoad]) -> SoilNodes:
+    """Nodes of the soil, which is what moves with the ground, among all the loads of a system."""
     first = _beginnings([np.arange(len(load.height)) for load in loads])
     points = [
         np.arange(begin, begin + len(load.height))
         for begin, load in zip(first[:-1], loads, strict=True)
-        if is_soil(load, soil)
+        if load.moves_with_ground
     ]
-    heights = [load.height for load in loads if is_soil(load, soil)]
+    heights = [load.height for load in loads if load.moves_with_ground]
     height, node = np.unique(np.concatenate([np.zeros(0), *heights]), return_inverse=True)
     none = np.zeros(0, dtype=np.intp)
     return SoilNodes(height, np.concatenate([none, *points]), node.astype(np.intp))

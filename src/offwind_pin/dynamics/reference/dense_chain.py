@@ -30,6 +30,10 @@ class DenseChain:
         """(t, 1) times (t,) in s."""
         return np.asarray(time, dtype=float)[:, None]
 
+    def mean_inputs(self) -> Array:
+        """(1,) time 0; equations without a ramp time have the means of the loads alone."""
+        return np.zeros(1)
+
     def residual(self, time_inputs: Array, q: Array, v: Array, a: Array) -> Array:
         """(nv,) generalised forces out of balance, in N and N m."""
         return self.equations.residual(float(time_inputs[0]), q, v, a)

@@ -17,7 +17,13 @@ import numpy as np
 import pinocchio as pin
 
 from offwind_pin.base.definition import Array
-from offwind_pin.dynamics.acting_loads import all_loads, grounding, smooth_ramp, split_memory
+from offwind_pin.dynamics.acting_loads import (
+    all_loads,
+    compiled_loads,
+    grounding,
+    smooth_ramp,
+    split_memory,
+)
 from offwind_pin.dynamics.base_excitation import BASE
 from offwind_pin.dynamics.reference.chain_kinematics import AxisPoints, ChainMotion
 from offwind_pin.dynamics.system import System
@@ -26,13 +32,11 @@ from offwind_pin.loads.point_load import (
     MOMENT_BY_POSITION,
     MOMENT_BY_SPIN,
     MOMENT_BY_TURN,
-    KernelLoad,
     PointForces,
     PointLoad,
     PointMotion,
-    as_argument,
 )
-from offwind_pin.loads.root_restraint import as_kernel_restraint
+from offwind_pin.loads.root_restraint import FREE
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,14 +69,14 @@ class Equations:
         self,
         system: System,
         loads: Sequence[PointLoad],
-        ramp_time: float,
+        ramp_time: float | None,
         memory: Array | None = None,
         ground_motion: GroundMotion | None = None,
     ) -> None:
         self.system = system
         self.chain = system.chain
         self.ramp_time = ramp_time
-        self.loads = all_loads(system, loads)
+        self.loads = compiled_loads(all_loads(system, loads))
         self.model, self.data = system.pin_model, system.scratch.data
         self._ground_motion = ground_motion
         self._grounding = grounding(system, self.loads, ground_motion)
@@ -82,7 +86,8 @@ class Equations:
         self.points = AxisPoints.on(system.chain, np.concatenate(heights))
         edges = np.cumsum([len(height) for height in heights])
         self._parts = [slice(int(a), int(b)) for a, b in itertools.pairwise(edges)]
-        self._root = as_kernel_restraint(system.foundation.root)
+        root = system.foundation.root
+        self._root = FREE if root is None else root.compiled()
         self._memory = [part.copy() for part in split_memory(self.loads, self._root, memory)]
         joints = len(system.chain.node_joints)
         last = system.chain.roots + joints * np.arange(system.chain.elements + 1)
@@ -115,12 +120,12 @@ class Equations:
         motion = self.chain_motion(q, np.zeros_like(q))
         points = motion.points(self.points)
         now = 0.0 if time is None else time
-        rise = 0.0 if time is None else float(smooth_ramp(np.array(time), self.ramp_time))
+        ramp_factor = 0.0 if time is None else float(smooth_ramp(np.array(time), self.ramp_time))
         for load, part, past in zip(self.loads, self._parts, self._memory[:-1], strict=True):
-            if isinstance(load, KernelLoad) and not load.inertial:
+            if not load.inertial:
                 continue
             seen = points if time is None else self._seen(now, points)
-            tangents = load.tangents(now, seen[part], rise, **as_argument(load, past))
+            tangents = load.tangents(now, seen[part], ramp_factor, past)
             moved = motion.derivatives(self.points[part], points[part]).position
             change = np.einsum("nij,njk->nik", tangents.inertia, moved)
             total -= np.tensordot(moved, change, axes=([0, 1], [0, 1]))
@@ -156,9 +161,9 @@ class Equations:
         points = motion.points(self.points)
         seen = self._seen(time, points)
         force, moment = np.zeros((2, len(self.points.height), 3))
-        rise = float(smooth_ramp(np.array(time), self.ramp_time))
+        ramp_factor = float(smooth_ramp(np.array(time), self.ramp_time))
         for load, part, past in zip(self.loads, self._parts, self._memory[:-1], strict=True):
-            result = load.forces(time, seen[part], rise, **as_argument(load, past))
+            result = load.forces(time, seen[part], ramp_factor, past)
             force[part], moment[part] = result.force, result.moment
         return Evaluation(motion, points, PointForces(force, moment))
 
@@ -172,10 +177,10 @@ class Equations:
     def commit(self, time: float, q: Array, v: Array, a: Array) -> None:
         """End a step: what loads and root keep of their past becomes that of a state."""
         seen = self._seen(time, self.chain_motion(q, v, a).points(self.points))
-        rise = float(smooth_ramp(np.array(time), self.ramp_time))
+        ramp_factor = float(smooth_ramp(np.array(time), self.ramp_time))
         for load, part, past in zip(self.loads, self._parts, self._memory[:-1], strict=True):
-            if isinstance(load, KernelLoad) and load.memory_size:
-                load.commit(seen[part], past, time, rise)
+            if load.memory_size:
+                load.commit(seen[part], past, time, ramp_factor)
         if self.chain.roots:
             self._root.commit(q[:6], self._memory[-1])
 
@@ -228,10 +233,10 @@ class Equations:
         """(nv, nv) derivatives of minus the loads' generalised force by q, v and a."""
         state = self.evaluate(time, q, v, a)
         seen = self._seen(time, state.points)
-        rise = float(smooth_ramp(np.array(time), self.ramp_time))
+        ramp_factor = float(smooth_ramp(np.array(time), self.ramp_time))
         by_q, by_v, by_a = np.zeros((3, len(q), len(q)))
         for load, part, past in zip(self.loads, self._parts, self._memory[:-1], strict=True):
-            tangents = load.tangents(time, seen[part], rise, **as_argument(load, past))
+            tangents = load.tangents(time, seen[part], ramp_factor, past)
             how = state.motion.derivatives(self.points[part], state.points[part])
             change = np.einsum("nij,njk->nik", tangents.stiffness, how.position)
             change += np.einsum("nij,njk->nik", tangents.damping, how.velocity_by_q)

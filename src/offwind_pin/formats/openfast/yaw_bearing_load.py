@@ -9,16 +9,12 @@ import numpy as np
 
 from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError
+from offwind_pin.base.number_tables import check_times
 from offwind_pin.definitions.rotor_nacelle import RigidBody, lump_rna, rotor_apex
 from offwind_pin.definitions.turbine import RigidBodyRNA, RotorNacelleRNA
 from offwind_pin.formats.openfast.output import OpenFastOutput
 from offwind_pin.formats.openfast.units import ANGLE, FORCE, MOMENT
-from offwind_pin.loads.tower_top.load_history import (
-    COMPONENTS,
-    LARGEST_LOAD,
-    LoadHistory,
-    check_times,
-)
+from offwind_pin.loads.tower_top.load_history import COMPONENTS, LARGEST_LOAD, LoadHistory
 
 _log = logging.getLogger(__name__)
 

@@ -13,8 +13,7 @@ import numpy as np
 
 from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError
-from offwind_pin.base.number_tables import read_text, to_numbers
-from offwind_pin.loads.tower_top.load_history import check_times
+from offwind_pin.base.number_tables import read_text, read_time_columns, to_numbers
 
 Unit = Literal["m_per_s2", "cm_per_s2", "g"]
 Axis = Literal["x", "y", "z"]
@@ -41,8 +40,7 @@ class Accelerogram:
 def read_columns(path: Path, unit: Unit, components: Sequence[Axis]) -> Accelerogram:
     """Columns of time in s and of one to three accelerations.
 
-    Columns are separated by blanks, tabs, commas or semicolons; ``#``, ``!`` and ``%`` start a
-    comment.
+    For their separators see :func:`read_time_columns`.
 
     Parameters
     ----------
@@ -55,20 +53,7 @@ def read_columns(path: Path, unit: Unit, components: Sequence[Axis]) -> Accelero
         rise or leave a gap; an axis named twice
     """
     check_components(components)
-    text = read_text(path)
-    rows, lines = [], []
-    for line, raw in enumerate(text.splitlines(), 1):
-        data = re.split(r"[#!%]", raw, maxsplit=1)[0].strip()
-        if data:
-            cells = re.split(r"[\s,;]+", data)
-            rows.append(to_numbers(path, line, cells, 1 + len(components)))
-            lines.append(line)
-    if len(rows) < 2:
-        raise InputError(
-            str(path), f"{len(rows)} rows", "two rows or more", "Is the file complete?"
-        )
-    values = np.array(rows)
-    check_times(path, values[:, 0], lines, "line")
+    values, _, text = read_time_columns(path, 1 + len(components))
     acceleration = np.zeros((len(values), 3))
     for column, axis in enumerate(components, 1):
         acceleration[:, AXES.index(axis)] = UNITS[unit] * values[:, column]

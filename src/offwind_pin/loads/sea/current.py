@@ -2,13 +2,28 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from abc import abstractmethod
+from typing import Annotated, Any, Literal
 
 import numpy as np
+from pydantic import (
+    BeforeValidator,
+    Discriminator,
+    Field,
+    Tag,
+    model_serializer,
+    model_validator,
+)
 
-from offwind_pin.base.definition import Array
-from offwind_pin.base.errors import InputError
+from offwind_pin.base.definition import (
+    Array,
+    Definition,
+    Direction,
+    NonNegative,
+    Numbers,
+    Positive,
+    key,
+)
 
 FASTEST = 10.0
 """m/s; the fastest tidal streams reach half of it."""
@@ -17,27 +32,17 @@ SURFACE_LAYER = 20.0
 """m below which a current that the wind drives is gone (IEC 61400-3-1:2019, 6.3.3.3.3)."""
 
 
-@dataclass(frozen=True)
-class Current(ABC):
+class Current(Definition, kw_only=False):
     """Water that flows one way.
 
-    speed : at the mean water level in m/s; direction_deg : towards which, from +x towards +y
+    Attributes
+    ----------
+    speed : float, m/s, at the mean water level
+    direction_deg : float, degrees from +x towards +y, towards which it flows
     """
 
-    speed: float
-    direction_deg: float = 0.0
-
-    def __post_init__(self) -> None:
-        if not (np.isfinite(self.speed) and 0 <= self.speed <= FASTEST):
-            allowed = f"0 to {FASTEST:g} m/s; where it goes says direction_deg"
-            raise InputError("current, field speed", self.speed, allowed, "Correct it.")
-        if not np.isfinite(self.direction_deg):
-            raise InputError(
-                "current, field direction_deg",
-                self.direction_deg,
-                "an angle in degrees",
-                "Give it.",
-            )
+    speed: Annotated[NonNegative, Field(le=FASTEST)] = key("speed_m_per_s")
+    direction_deg: Direction = 0.0
 
     @abstractmethod
     def share(self, height: Array, depth: float) -> Array:
@@ -54,94 +59,99 @@ class Current(ABC):
         return np.asarray(size[:, None] * towards)
 
 
-@dataclass(frozen=True)
 class UniformCurrent(Current):
     """The same at all depths."""
+
+    kind: Literal["uniform"] = "uniform"
 
     def share(self, height: Array, depth: float) -> Array:
         return np.ones(len(height))
 
 
-@dataclass(frozen=True)
-class PowerLawCurrent(Current):
+class PowerLawCurrent(Current, kw_only=False):
     """((z + h) / h)^exponent; 1/7 for tides and surges (IEC 61400-3-1:2019, 6.3.3.3.2)."""
 
-    exponent: float = 1 / 7
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if not (np.isfinite(self.exponent) and 0 < self.exponent <= 1):
-            allowed = "above 0 and at most 1"
-            raise InputError("current, field exponent", self.exponent, allowed, "Correct it.")
+    kind: Literal["power_law"] = Field(default="power_law", kw_only=True)
+    exponent: Annotated[Positive, Field(le=1)] = 1 / 7
 
     def share(self, height: Array, depth: float) -> Array:
         return np.asarray(np.maximum(1 + height / depth, 0.0) ** self.exponent)
 
 
-@dataclass(frozen=True)
-class SurfaceCurrent(Current):
+class SurfaceCurrent(Current, kw_only=False):
     """Driven by the wind: linear from the surface down to nothing at a reach in m."""
 
-    reach: float = SURFACE_LAYER
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if not (np.isfinite(self.reach) and self.reach > 0):
-            raise InputError(
-                "current, field reach", self.reach, "a positive depth in m", "Give it."
-            )
+    kind: Literal["surface"] = Field(default="surface", kw_only=True)
+    reach: Positive = key("reach_m", default=SURFACE_LAYER)
 
     def share(self, height: Array, depth: float) -> Array:
         return np.maximum(1 + height / self.reach, 0.0)
 
 
-@dataclass(frozen=True)
 class CurrentTable(Current):
     """Factors of the speed at depths in m below the mean water level, linear in between.
 
     Above the first and below the last they stay; ``speed`` is usually that where the factor is 1.
     """
 
-    depth: tuple[float, ...] = ()
-    factor: tuple[float, ...] = ()
+    kind: Literal["table"] = "table"
+    depth: Numbers = key("depth_m")
+    factor: Numbers
 
-    def __post_init__(self) -> None:
-        super().__post_init__()
+    @model_validator(mode="after")
+    def _is_a_table(self) -> CurrentTable:
         if len(self.depth) < 2 or len(self.depth) != len(self.factor):
-            received = f"{len(self.depth)} depths and {len(self.factor)} factors"
-            allowed = "two depths or more, and a factor for each"
-            raise InputError(
-                "current, fields depth and factor", received, allowed, "Complete them."
+            raise ValueError(
+                f"the table has {len(self.depth)} depths and {len(self.factor)} factors; give two "
+                "depths or more, and a factor for each"
             )
-        if not np.all(np.isfinite([*self.depth, *self.factor])):
-            received = "NaN or infinity"
-            raise InputError("current, table", received, "finite numbers", "Correct them.")
         if np.any(np.diff(self.depth) <= 0) or self.depth[0] < 0:
-            raise InputError(
-                "current, field depth", list(self.depth), "rising depths from 0 down", "Sort them."
-            )
+            raise ValueError("depths must rise strictly from 0; sort them from the surface down")
         fastest = self.speed * max(abs(factor) for factor in self.factor)
         if fastest > FASTEST:
-            raise InputError(
-                "current, field factor",
-                f"{fastest:g} m/s where its size is largest",
-                f"up to {FASTEST:g} m/s",
-                "Factors multiply the speed; are they speeds?",
+            raise ValueError(
+                f"the current reaches {fastest:g} m/s, above {FASTEST:g} m/s; factors multiply the "
+                "speed, they are not speeds"
             )
+        return self
 
     def share(self, height: Array, depth: float) -> Array:
         return np.interp(-height, self.depth, self.factor)
 
 
-@dataclass(frozen=True)
-class CurrentSum:
-    """Several currents at once, such as a tide and what the wind drives."""
+SingleCurrent = Annotated[
+    UniformCurrent | PowerLawCurrent | SurfaceCurrent | CurrentTable, Field(discriminator="kind")
+]
 
-    parts: tuple[Current, ...]
+
+class CurrentSum(Definition, kw_only=False):
+    """Several currents at once, such as a tide and what the wind drives; a list in a file."""
+
+    parts: Annotated[tuple[SingleCurrent, ...], Field(min_length=1)]
+
+    @model_serializer
+    def _as_list(self) -> tuple[SingleCurrent, ...]:
+        return self.parts
 
     def velocity(self, height: Array, depth: float) -> Array:
         """(n, 3) in m/s, see :meth:`Current.velocity`."""
         return np.sum([part.velocity(height, depth) for part in self.parts], axis=0)
+
+
+def _one_or_many(value: Any) -> str:
+    return "many" if isinstance(value, list | tuple | CurrentSum) else "one"
+
+
+def _summed(value: Any) -> Any:
+    return {"parts": value} if isinstance(value, list | tuple) else value
+
+
+CurrentChoice = Annotated[
+    Annotated[SingleCurrent, Tag("one")]
+    | Annotated[CurrentSum, BeforeValidator(_summed), Tag("many")],
+    Discriminator(_one_or_many),
+]
+"""One current, or a list of currents that are added up."""
 
 
 def mean_velocity(current: Current | CurrentSum, depth: float) -> Array:

@@ -1,4 +1,4 @@
-"""What water does to the members of a system: the loads on their strips."""
+"""Loads of the water on the members of a system, strip by strip."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from offwind_pin.structure.section import inner_diameter, wetted_diameter
 
 
 @dataclass(frozen=True, eq=False)
-class Waters:
+class HydrodynamicModel:
     """Strips of a turbine in a sea, with all that its forces depend on.
 
     Attributes
@@ -43,7 +43,7 @@ class Waters:
     drag: Array
 
     @staticmethod
-    def of(turbine: Turbine, sea: Sea) -> Waters:
+    def of(turbine: Turbine, sea: Sea) -> HydrodynamicModel:
         """Realise a sea at a turbine."""
         level, mudline = sea.water_level, turbine.site.mudline
         if not level > mudline:
@@ -62,7 +62,7 @@ class Waters:
             current=current,
             inertia_factor=diffraction(turbine, waves, level),
         )
-        return Waters(turbine, strips, surface, water, added, drag)
+        return HydrodynamicModel(turbine, strips, surface, water, added, drag)
 
     def loads(self) -> list[KernelLoad]:
         """Every load of the water, the permanent added mass first."""

@@ -71,11 +71,11 @@ class WaterSurface:
         """(t,) surface of the fully grown waves above the mean water level in m."""
         return np.zeros(len(time)) if self._elevation is None else self._elevation.at(time)[:, 0]
 
-    def at(self, time: Array, rise: Array) -> Array:
+    def at(self, time: Array, ramp_factor: Array) -> Array:
         """(t,) height in m up to which strips are wet."""
         if self.rule is None:
             return np.full(len(time), self.level)
-        return self.level + rise * self.elevation(time)
+        return self.level + ramp_factor * self.elevation(time)
 
 
 class WaterSeries:
@@ -107,20 +107,24 @@ class WaterSeries:
             self._motion = _Motion(surface.waves, surface, above_level, inertia_factor)
         self.highest_surface, self.lowest_surface = surface.highest, surface.lowest
 
-    def surface(self, time: Array, rise: Array) -> Array:
-        """(t,) height in m up to which strips are wet."""
-        return self._surface.at(time, rise)
+    def elevation(self, time: Array, ramp_factor: Array) -> Array:
+        """(t,) surface of the waves above the mean water level in m."""
+        return ramp_factor * self._surface.elevation(time)
 
-    def rows(self, time: Array, rise: Array) -> Array:
+    def surface(self, time: Array, ramp_factor: Array) -> Array:
+        """(t,) height in m up to which strips are wet."""
+        return self._surface.at(time, ramp_factor)
+
+    def time_inputs(self, time: Array, ramp_factor: Array) -> Array:
         """(t, 1 + 6 n) surface in m, velocity (n, 3) in m/s, acceleration (n, 3) in m/s2.
 
-        rise (t,) multiplies the waves; the current acts in full.
+        ramp_factor (t,) multiplies the waves; the current acts in full.
         """
         n = len(self._current)
         rows = np.zeros((len(time), 1 + 6 * n))
-        rows[:, 0] = self.surface(time, rise)
+        rows[:, 0] = self.surface(time, ramp_factor)
         if self._motion is not None:
-            self._motion.write(time, rise, rows[:, 0] - self._surface.level, rows[:, 1:])
+            self._motion.write(time, ramp_factor, rows[:, 0] - self._surface.level, rows[:, 1:])
         rows[:, 1 : 1 + 3 * n] += self._current.ravel()
         return rows
 
@@ -157,13 +161,13 @@ class _Motion:
         if rule == _EXTRAPOLATION:
             self._slopes = _slopes(waves.first_order, level, surface.level, inertia_factor)
 
-    def write(self, time: Array, rise: Array, elevation: Array, result: Array) -> None:
+    def write(self, time: Array, ramp_factor: Array, elevation: Array, result: Array) -> None:
         """Add to (t, 6 n) velocities, then accelerations, both (n, 3), under surfaces (t,)."""
-        sums = rise[:, None] * self._sums.at(time)
+        sums = ramp_factor[:, None] * self._sums.at(time)
         if self._rule is not None:
             slopes = np.zeros((len(time), 6))
             if self._slopes is not None:
-                slopes = rise[:, None] * self._slopes.at(time)
+                slopes = ramp_factor[:, None] * self._slopes.at(time)
             for first in range(0, len(time), _BLOCK):
                 block = slice(first, first + _BLOCK)
                 self._stretch(

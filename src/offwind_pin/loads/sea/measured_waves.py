@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
-from typing import Any
+from typing import Annotated, Any, Literal, Self
 
 import numpy as np
+from pydantic import Discriminator, Field, Tag, model_validator
 
+from offwind_pin.base.definition import Direction, File, NonNegative, key
 from offwind_pin.base.errors import InputError
-from offwind_pin.loads.sea.sea import LinearSea, require_angle
+from offwind_pin.loads.sea.sea import LinearSea
 from offwind_pin.loads.sea.waves.linear import LinearWaves
-from offwind_pin.loads.sea.waves.spectra import require_positive
+from offwind_pin.loads.sea.waves.spectra import WaveFrequency
 from offwind_pin.loads.sea.waves.statistics import moments, peak_frequency
 from offwind_pin.loads.sea.waves.surface_record import (
     RecordHarmonics,
@@ -23,90 +23,119 @@ from offwind_pin.loads.sea.waves.warnings import irregular_wave_cautions
 from offwind_pin.loads.sea.waves.wave_field import WaveField
 
 MOST_LEFT_OUT = 0.05
-"""Of the record's variance, beyond which cuts are told of as a caution."""
+"""Of the record's variance, beyond which cuts give a caution."""
 
 
-@dataclass(frozen=True)
-class MeasuredWaves(LinearSea):
+def _file_or_samples(value: Any) -> str:
+    samples = isinstance(value, SurfaceRecord) or (isinstance(value, dict) and "path" not in value)
+    return "samples" if samples else "file"
+
+
+RecordChoice = Annotated[
+    Annotated[SurfaceRecord, Tag("samples")] | Annotated[File, Tag("file")],
+    Discriminator(_file_or_samples),
+]
+
+
+class MeasuredWaves(LinearSea, kw_only=False):
     """Long-crested linear waves whose surface at the axis is a record between two frequencies.
 
-    record : from a file by :meth:`read`, or made by :meth:`SurfaceRecord.of`
-    low_cut, high_cut : in Hz, between which the record is taken for free linear waves; below lie
-        tides and bound waves, above noise and bound waves again, which linear theory would let
+    Attributes
+    ----------
+    record : a file, see :func:`read_surface_record`, or samples, see :meth:`SurfaceRecord.of`
+    low_cut, high_cut : float, Hz, between which the record is taken for free linear waves; below
+        are tides and bound waves, above noise and bound waves again, which linear theory would let
         decay too slowly, or too fast, with depth
-    direction_deg : in which they travel, from +x towards +y
-    taper : in s, over which each end fades; by default a hundredth of the record
+    direction_deg : float, degrees from +x towards +y, in which they travel
+    taper : float, s, over which each end fades; by default a hundredth of the record
     """
 
-    record: SurfaceRecord
-    low_cut: float
-    high_cut: float
-    direction_deg: float = 0.0
-    taper: float | None = None
+    kind: Literal["measured_waves"] = Field(default="measured_waves", kw_only=True)
+    order: Literal[1] = Field(default=1, kw_only=True)
+    record: RecordChoice = key("file")
+    low_cut: WaveFrequency = key("low_cut_hz")
+    high_cut: WaveFrequency = key("high_cut_hz")
+    direction_deg: Direction = 0.0
+    taper: NonNegative | None = key("taper_s", default=None)
 
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if self.order != 1:
-            raise InputError(
-                "waves, field order",
-                self.order,
-                "1 for a measured surface, which holds the waves of second order already",
-                "Leave it out.",
-            )
-        for name in ("low_cut", "high_cut"):
-            require_positive(f"waves, field {name}", getattr(self, name))
-        nyquist = 0.5 / self.record.dt
+    @model_validator(mode="after")
+    def _samples_fit(self) -> Self:
+        if isinstance(self.record, SurfaceRecord):
+            fault = self._fault_of_settings(self.record)
+            if fault is not None:
+                raise ValueError(f"{fault[0]} is {fault[1]}, allowed: {fault[2]}; {fault[3]}")
+        return self
+
+    @cached_property
+    def samples(self) -> SurfaceRecord:
+        """The record.
+
+        Raises
+        ------
+        InputError : a file that cannot be used, or settings that do not fit what is in it
+        """
+        if isinstance(self.record, SurfaceRecord):
+            return self.record
+        record = read_surface_record(self.record)
+        fault = self._fault_of_settings(record)
+        if fault is not None:
+            name, received, allowed, remedy = fault
+            remedy = f"{remedy[:1].upper()}{remedy[1:]}."
+            raise InputError(f"{self.record}, with {name}", received, allowed, remedy)
+        return record
+
+    def _fault_of_settings(self, record: SurfaceRecord) -> tuple[str, object, str, str] | None:
+        """Name, value, allowed values and remedy of a setting that does not fit a record."""
+        nyquist = 0.5 / record.dt
         if not self.high_cut < nyquist:
             allowed = f"below {nyquist:.4g} Hz, half the record's sampling frequency"
-            raise InputError("waves, field high_cut", self.high_cut, allowed, "Lower it.")
-        if self.high_cut * self.record.duration < self.low_cut * self.record.duration + 5:
+            return "high_cut", self.high_cut, allowed, "lower it"
+        if self.high_cut * record.duration < self.low_cut * record.duration + 5:
             received = f"{self.low_cut:g} to {self.high_cut:g} Hz"
             allowed = "a band of five harmonics of the record or more"
-            raise InputError("waves, fields low_cut and high_cut", received, allowed, "Widen it.")
-        longest = self.record.duration / 2
-        if self.taper is not None and not 0 <= self.taper <= longest:
-            allowed = f"0 to half the record ({longest:g} s)"
-            raise InputError("waves, field taper", self.taper, allowed, "Shorten it.")
-        require_angle(self.direction_deg)
-
-    @staticmethod
-    def read(path: Path | str, low_cut: float, high_cut: float, **settings: Any) -> MeasuredWaves:
-        """From a file of times in s and elevations in m, see :func:`read_surface_record`."""
-        record = read_surface_record(Path(path))
-        return MeasuredWaves(record, low_cut, high_cut, **settings)
+            return "low_cut and high_cut", received, allowed, "widen it"
+        longest = record.duration / 2
+        if self.taper is not None and self.taper > longest:
+            return "taper", self.taper, f"0 to half the record ({longest:g} s)", "shorten it"
+        return None
 
     @property
     def main_period(self) -> float:
-        found, duration = self._harmonics, self.record.duration
+        found, duration = self.harmonics, self.samples.duration
         square = np.abs(found.elevation) ** 2
         return 1 / peak_frequency(found.harmonic / duration, square, duration)
 
     @property
+    def marked_frequency(self) -> None:
+        return None
+
+    @property
     def longest_time(self) -> float:
-        return self.record.duration
+        return self.samples.duration
 
     @cached_property
-    def _harmonics(self) -> RecordHarmonics:
-        return self.record.harmonics(self.low_cut, self.high_cut, self.taper)
+    def harmonics(self) -> RecordHarmonics:
+        """Of the record between its cuts, at rest at its ends."""
+        return self.samples.harmonics(self.low_cut, self.high_cut, self.taper)
 
     def linear(self, depth: float, gravity: float) -> LinearWaves:
-        found = self._harmonics
+        found, record = self.harmonics, self.samples
         if not np.any(found.elevation):
             received = f"no variance from {self.low_cut:g} to {self.high_cut:g} Hz"
             allowed = "a band that holds waves"
-            raise InputError("waves, fields low_cut and high_cut", received, allowed, "Widen it.")
+            raise InputError("sea, fields low_cut and high_cut", received, allowed, "Widen it.")
         angle = float(np.radians(self.direction_deg))
         return self.free_waves(
-            self.record.duration, found.harmonic, found.elevation, depth, gravity, angle
+            record.duration, found.harmonic, found.elevation, depth, gravity, angle
         )
 
     def notes(self) -> list[str]:
-        found, record = self._harmonics, self.record
-        told = []
+        found, record = self.harmonics, self.samples
+        start = []
         if record.start != 0:
-            told.append(f"the record's first time, {record.start:g} s, is time 0")
+            start.append(f"the record's first time, {record.start:g} s, is time 0")
         return [
-            *told,
+            *start,
             f"a mean of {found.mean:.3g} m and a trend of {found.trend:.3g} m over the record are "
             "taken off; a tide is given as water level",
             f"the record's ends fade over {found.fade:.3g} s each, so that it may repeat",
@@ -115,19 +144,19 @@ class MeasuredWaves(LinearSea):
         ]
 
     def cautions(self, waves: WaveField) -> list[str]:
-        told, lost = super().cautions(waves), self._harmonics.left_out
-        if self.record.resampled:
-            told.append(
+        texts, left_out = super().cautions(waves), self.harmonics.left_out
+        if self.samples.resampled:
+            texts.append(
                 "the record's times are not evenly spaced; it is interpolated linearly at steps "
-                f"of {self.record.dt:g} s, which flattens its short waves"
+                f"of {self.samples.dt:g} s, which flattens its short waves"
             )
-        if lost > MOST_LEFT_OUT:
-            told.append(
+        if left_out > MOST_LEFT_OUT:
+            texts.append(
                 f"the cuts at {self.low_cut:g} and {self.high_cut:g} Hz leave out "
-                f"{100 * lost:.2g} % of the record's variance"
+                f"{100 * left_out:.2g} % of the record's variance"
             )
         state = moments(waves)
-        return told + irregular_wave_cautions(
+        return texts + irregular_wave_cautions(
             state.significant_height,
             state.peak_period,
             waves.depth,
@@ -137,6 +166,6 @@ class MeasuredWaves(LinearSea):
 
     @property
     def in_words(self) -> str:
-        source = self.record.origin.split(" (SHA-256")[0]
-        told = f"waves measured, {source}, from {self.low_cut:g} to {self.high_cut:g} Hz"
-        return f"{told}, carried by the current" if self.doppler else told
+        source = self.samples.origin.split(" (SHA-256")[0]
+        band = f"from {self.low_cut:g} to {self.high_cut:g} Hz"
+        return f"measured waves, {source}, {band}{self.theory_in_words}"

@@ -2,43 +2,51 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from dataclasses import dataclass
-from typing import Literal, get_args
+from abc import abstractmethod
+from typing import Annotated, Literal, Self
 
 import numpy as np
+from pydantic import Field, model_validator
 
-from offwind_pin.base.definition import Array, ComplexArray
+from offwind_pin.base.definition import (
+    Array,
+    ComplexArray,
+    Definition,
+    Direction,
+    Number,
+    Positive,
+    key,
+)
 from offwind_pin.base.errors import InputError
-from offwind_pin.loads.sea.current import Current, CurrentSum, mean_velocity
+from offwind_pin.loads.sea.current import CurrentChoice, mean_velocity
 from offwind_pin.loads.sea.kinematics import Stretching
 from offwind_pin.loads.sea.waves.fourier_wave import SteadyWave
 from offwind_pin.loads.sea.waves.linear import LinearWaves
 from offwind_pin.loads.sea.waves.second_order import SecondOrderWaves
-from offwind_pin.loads.sea.waves.spectra import require_positive
+from offwind_pin.loads.sea.waves.spectra import WavePeriod
 from offwind_pin.loads.sea.waves.stream_function import StreamFunctionWaves
 from offwind_pin.loads.sea.waves.warnings import regular_wave_cautions
 from offwind_pin.loads.sea.waves.wave_field import WaveField
 
+WaveHeight = Annotated[Positive, Field(le=40)]
 Order = Literal[1, 2]
 
 MOST_BLOCKED = 0.05
 """Of the variance, that an opposing current may stop."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class Sea(ABC):
+class Sea(Definition):
     """What all seas have.
 
     Attributes
     ----------
-    current : over height, or None for none
-    water_level : mean height of the surface in m (tide, surge)
+    current : one current, a :class:`CurrentSum` of several, or None
+    water_level : float, m, mean height of the surface (tide, surge)
     stretching : how linear waves act above the mean water level, see :class:`WaterSeries`
     """
 
-    current: Current | CurrentSum | None = None
-    water_level: float = 0.0
+    current: CurrentChoice | None = None
+    water_level: Annotated[Number, Field(ge=-20, le=20)] = key("water_level_m", default=0.0)
     stretching: Stretching = "none"
 
     @abstractmethod
@@ -48,22 +56,41 @@ class Sea(ABC):
     @property
     @abstractmethod
     def in_words(self) -> str:
-        """The waves as a reader is told of them."""
+        """Short description of the waves for reports."""
+
+    def completed(self, seed: int, duration: float) -> Self:
+        """The same sea with what a load case gives where it is left open.
+
+        Parameters
+        ----------
+        seed : of the case
+        duration : s, of the case
+        """
+        return self
+
+    @property
+    def has_waves(self) -> bool:
+        return True
 
     @property
     def wave_seed(self) -> int:
-        """What draws the waves, or -1 where nothing is drawn."""
+        """Seed of the waves, or -1 where nothing is random."""
         return -1
 
     @property
     def longest_time(self) -> float | None:
-        """In s, after which waves that should not repeat do so; None where that is no matter."""
+        """Time in s after which irregular waves repeat; None where that does not matter."""
         return None
 
     @property
     def main_period(self) -> float | None:
-        """In s, of the waves that hold most of the variance, if it is known beforehand."""
+        """Period in s of the waves that have most of the variance, if known beforehand."""
         return None
+
+    @property
+    def marked_frequency(self) -> float | None:
+        """Frequency in Hz at which spectra of responses mark the waves, or None."""
+        return None if self.main_period is None else 1 / self.main_period
 
     def cautions(self, waves: WaveField) -> list[str]:
         """Sentences about its waves where they look like a mistake, or leave their theory.
@@ -77,37 +104,55 @@ class Sea(ABC):
         return []
 
 
-@dataclass(frozen=True, kw_only=True)
+class DrySea(Definition):
+    """No water, in a load case; in Python the sea is then None."""
+
+    kind: Literal["dry"] = "dry"
+
+
+class StillWater(Sea):
+    """Water without waves: added mass, and drag on a structure that moves."""
+
+    kind: Literal["still_water"] = "still_water"
+    stretching: Literal["none"] = "none"
+
+    def waves(self, depth: float, gravity: float) -> None:
+        return None
+
+    @property
+    def has_waves(self) -> bool:
+        return False
+
+    @property
+    def in_words(self) -> str:
+        return "still water"
+
+
 class LinearSea(Sea):
     """What seas of free linear waves have.
 
-    order : 1 for linear waves, 2 for what every two of them bind at the sums and differences of
-        their frequencies as well, see :class:`SecondOrderWaves`
-    doppler : whether the current carries the waves. Then their frequencies are those that a fixed
-        observer sees, and their lengths those on water that flows everywhere as the current does
-        in the mean over the depth, along each of them. The heights stay those given.
+    Attributes
+    ----------
+    order : 1 for linear waves, 2 for their bound components at sums and differences of frequencies
+        as well, see :class:`SecondOrderWaves`
+    doppler : bool, whether the current carries the waves. Then their frequencies are those that a
+        fixed observer sees, and their lengths those on water that flows everywhere as the current
+        does in the mean over the depth, along each of them. The heights stay those given.
     """
 
     order: Order = 1
     doppler: bool = False
 
-    def __post_init__(self) -> None:
-        if self.order not in get_args(Order):
-            raise InputError("waves, field order", self.order, "1 or 2", "Choose one.")
-        if self.order == 2 and self.doppler:
-            raise InputError(
-                "waves, field order",
-                "2 with doppler",
-                "waves of second order on water at rest",
-                "Leave doppler out, or use order 1; the current itself may stay.",
+    @model_validator(mode="after")
+    def _doppler_has_a_current(self) -> Self:
+        if self.doppler and self.order == 2:
+            raise ValueError(
+                "doppler and order 2 exclude each other: waves of second order are those on water "
+                "at rest; leave one of them out"
             )
         if self.doppler and self.current is None:
-            raise InputError(
-                "waves, field doppler",
-                "no current",
-                "a current that carries the waves",
-                "Give one, or leave doppler out.",
-            )
+            raise ValueError("doppler needs a current; give one, or leave doppler out")
+        return self
 
     def waves(self, depth: float, gravity: float) -> LinearWaves | SecondOrderWaves:
         waves = self.linear(depth, gravity)
@@ -115,7 +160,7 @@ class LinearSea(Sea):
 
     @abstractmethod
     def linear(self, depth: float, gravity: float) -> LinearWaves:
-        """The free waves of first order, of which those of any higher order follow."""
+        """The free waves of first order, from which those of any higher order follow."""
 
     def free_waves(
         self,
@@ -138,7 +183,7 @@ class LinearSea(Sea):
         waves = LinearWaves.in_current(period, harmonic, elevation, depth, gravity, direction, mean)
         if waves.blocked > MOST_BLOCKED:
             raise InputError(
-                "waves, field doppler",
+                "sea, field doppler",
                 f"an opposing current that blocks {100 * waves.blocked:.3g} % of the variance",
                 f"at most {100 * MOST_BLOCKED:g} %",
                 "Such waves cannot reach the structure: check the current and its direction.",
@@ -148,8 +193,8 @@ class LinearSea(Sea):
     @property
     def theory_in_words(self) -> str:
         """What follows the waves' name: nothing for linear waves that no current carries."""
-        told = ", to second order" if self.order == 2 else ""
-        return f"{told}, carried by the current" if self.doppler else told
+        order = ", to second order" if self.order == 2 else ""
+        return f"{order}, carried by the current" if self.doppler else order
 
     def cautions(self, waves: WaveField) -> list[str]:
         if isinstance(waves, LinearWaves) and waves.blocked > 0:
@@ -160,35 +205,20 @@ class LinearSea(Sea):
         return []
 
 
-@dataclass(frozen=True)
-class StillWater(Sea):
-    """Water without waves: added mass, and drag on a structure that moves."""
-
-    def waves(self, depth: float, gravity: float) -> None:
-        return None
-
-    @property
-    def in_words(self) -> str:
-        return "still water"
-
-
-@dataclass(frozen=True)
-class RegularWaves(LinearSea):
+class RegularWaves(LinearSea, kw_only=False):
     """A linear wave of one height and period, its crest at the axis at time 0.
 
-    height in m from trough to crest, period in s, direction_deg in which it travels, from +x
-    towards +y.
+    Attributes
+    ----------
+    height : float, m, from trough to crest
+    period : float, s
+    direction_deg : float, degrees from +x towards +y, in which it travels
     """
 
-    height: float
-    period: float
-    direction_deg: float = 0.0
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        for name in ("height", "period"):
-            require_positive(f"waves, field {name}", getattr(self, name))
-        require_angle(self.direction_deg)
+    kind: Literal["regular_waves"] = Field(default="regular_waves", kw_only=True)
+    height: WaveHeight = key("height_m")
+    period: WavePeriod = key("period_s")
+    direction_deg: Direction = 0.0
 
     def linear(self, depth: float, gravity: float) -> LinearWaves:
         return self.free_waves(
@@ -206,37 +236,36 @@ class RegularWaves(LinearSea):
 
     def cautions(self, waves: WaveField) -> list[str]:
         k = float(waves.wave_number[0])
-        told = regular_wave_cautions(self.height, k, waves.depth, self.order)
-        return super().cautions(waves) + told
+        own = regular_wave_cautions(self.height, k, waves.depth, self.order)
+        return super().cautions(waves) + own
 
     @property
     def in_words(self) -> str:
         return f"regular waves, {self.height:g} m high, {self.period:g} s{self.theory_in_words}"
 
 
-@dataclass(frozen=True)
-class StreamWaves(Sea):
+class StreamWaves(Sea, kw_only=False):
     """A steep regular wave by stream function theory, exact up to its surface.
 
     The wave is carried by the mean over the depth of the current along it; the current's own
     profile acts on the structure.
 
-    height in m from trough to crest, period in s as a fixed observer sees it, direction_deg in
-    which it travels from +x towards +y, crest_time in s at which its crest is at the axis, order of
-    the series or None for one that is large enough
+    Attributes
+    ----------
+    height : float, m, from trough to crest
+    period : float, s, as a fixed observer sees it
+    direction_deg : float, degrees from +x towards +y, in which it travels
+    crest_time : float, s, at which its crest is at the axis
+    order : of the series, or None for one that is large enough
     """
 
-    height: float
-    period: float
-    direction_deg: float = 0.0
-    crest_time: float = 0.0
-    order: int | None = None
-
-    def __post_init__(self) -> None:
-        require_angle(self.direction_deg)
-        if not np.isfinite(self.crest_time):
-            where = "waves, field crest_time"
-            raise InputError(where, self.crest_time, "a time in s", "Correct it.")
+    kind: Literal["stream_function_waves"] = Field(default="stream_function_waves", kw_only=True)
+    stretching: Literal["none"] = Field(default="none", kw_only=True)
+    height: WaveHeight = key("height_m")
+    period: WavePeriod = key("period_s")
+    direction_deg: Direction = 0.0
+    crest_time: Number = key("crest_time_s", default=0.0)
+    order: Annotated[int, Field(ge=2, le=128)] | None = None
 
     def waves(self, depth: float, gravity: float) -> StreamFunctionWaves:
         angle = float(np.radians(self.direction_deg))
@@ -261,10 +290,3 @@ class StreamWaves(Sea):
     @property
     def in_words(self) -> str:
         return f"stream function wave, {self.height:g} m high, {self.period:g} s"
-
-
-def require_angle(direction_deg: float) -> None:
-    """Refuse what is no direction of waves."""
-    if not np.isfinite(direction_deg):
-        where = "waves, field direction_deg"
-        raise InputError(where, direction_deg, "an angle in degrees", "Correct it.")

@@ -1,6 +1,6 @@
-"""Foundations behind one interface: where the chain starts, what holds its root, which springs act.
+"""Foundations behind one interface: where the chain starts, its root restraint, its soil springs.
 
-Clamped and apparent fixity hold the root of a chain rigidly; coupled springs and a macro-element
+Clamped and apparent fixity fix the root of a chain rigidly; coupled springs and a macro-element
 restrain its six joints at the mudline; distributed springs start at the toe, with a restraint there
 and point loads along the pile.
 """
@@ -17,7 +17,7 @@ from offwind_pin.base.errors import InputError
 from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.loads.point_load import PointLoad
 from offwind_pin.loads.root_restraint import LinearRestraint, RootRestraint
-from offwind_pin.loads.soil.soil_profile import Ground
+from offwind_pin.loads.soil.soil_profile import PileNodes
 from offwind_pin.loads.soil.springs.dashpot import Dashpot
 from offwind_pin.loads.soil.springs.pile import pile_nodes, pile_soil
 from offwind_pin.loads.soil.warnings import cautions
@@ -26,7 +26,7 @@ from offwind_pin.structure.section import outer_diameter
 
 @dataclass(frozen=True, eq=False)
 class Foundation:
-    """One way to hold a monopile.
+    """One way to support a monopile.
 
     Attributes
     ----------
@@ -34,8 +34,8 @@ class Foundation:
     base : height of the chain's base in m
     root : restraint of the base's six joints, or None where the base does not move
     soil : loads along the embedded pile
-    surrogate : why its numbers stand in for others, or None
-    structure : what is held, where that is not the turbine as defined
+    surrogate : why its numbers are used in place of others, or None
+    structure : what is supported, where that is not the turbine as defined
     facts : plain data about how it came about
     cautions : sentences about curves that are used outside their field base
     """
@@ -52,7 +52,7 @@ class Foundation:
     __repr__ = one_line
 
     def describe(self) -> dict[str, object]:
-        """Plain data for the sidecar: what holds the root and where the soil acts."""
+        """Plain data for the sidecar: the root restraint and where the soil acts."""
         return {
             "name": self.name,
             "base_z_m": self.base,
@@ -64,12 +64,12 @@ class Foundation:
 
 
 def clamped(turbine: Turbine) -> Foundation:
-    """Rigidly held at the mudline; nothing below exists."""
+    """Fixed rigidly at the mudline; nothing below exists."""
     return Foundation("clamped", turbine.site.mudline)
 
 
 def coupled_springs(turbine: Turbine) -> Foundation:
-    """A 6x6 stiffness at the mudline stands for pile and soil."""
+    """A 6x6 stiffness at the mudline in place of pile and soil."""
     stiffness = given_stiffness(turbine)
     return Foundation(
         "coupled_springs", turbine.site.mudline, LinearRestraint(stiffness, np.zeros((6, 6)))
@@ -110,7 +110,7 @@ def distributed_springs(turbine: Turbine) -> Foundation:
             "Add a station at the toe, or use another foundation.",
         )
     height, length = pile_nodes(springs.nodes, mudline, toe)
-    ground = Ground(
+    nodes = PileNodes(
         mudline - height, outer_diameter(turbine, height), mudline - toe, turbine.site.scour_depth
     )
     stiffness = np.diag(
@@ -121,9 +121,9 @@ def distributed_springs(turbine: Turbine) -> Foundation:
         "distributed_springs",
         toe,
         LinearRestraint(stiffness, (dashpot.initial_time + dashpot.secant_time[0]) * stiffness),
-        pile_soil(springs, ground, height, length),
+        pile_soil(springs, nodes, height, length),
         springs.surrogate,
-        cautions=tuple(cautions(springs, ground)),
+        cautions=tuple(cautions(springs, nodes)),
     )
 
 

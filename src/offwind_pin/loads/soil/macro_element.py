@@ -16,11 +16,11 @@ import numpy as np
 
 from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError
-from offwind_pin.base.kernels import kernel
+from offwind_pin.base.kernels import inner
 from offwind_pin.loads.root_restraint import KernelRestraint, restraint_commit, restraint_kernel
 
 _ARM, _COUNT, _ELEMENTS = 36, 37, 38
-"""Places in the numbers, after the 6x6 that acts besides: the arm of the decoupled translation, the
+"""Places among the constants, after the 6x6 that acts besides: arm of the decoupled translation,
 number of elements, and their stiffnesses in translation and rotation and their limits."""
 
 _X, _Y, _Z, _RX, _RY, _RZ = range(6)
@@ -32,7 +32,7 @@ _EQUAL = 1e-6
 """Relative difference of two planes' stiffness that is taken for rounding."""
 
 
-@kernel
+@inner
 def _decoupled(displacement: Array, arm: float) -> tuple[float, float, float, float]:
     """Translations x, y at the decoupling depth, and rotations about y and x."""
     return (
@@ -47,20 +47,20 @@ def _decoupled(displacement: Array, arm: float) -> tuple[float, float, float, fl
 def _reaction(
     displacement: Array,
     velocity: Array,
-    numbers: Array,
+    constants: Array,
     memory: Array,
     reaction: Array,
     stiffness: Array,
     damping: Array,
 ) -> tuple[float, float]:
-    arm, count = numbers[_ARM], int(numbers[_COUNT])
+    arm, count = constants[_ARM], int(constants[_COUNT])
     now = _decoupled(displacement, arm)
     force, tangent = np.zeros(4), np.zeros((4, 4))
     stored = 0.0
     pull, stretch = np.empty(4), np.empty(4)
     for j in range(count):
-        a, b = numbers[_ELEMENTS + j], numbers[_ELEMENTS + count + j]
-        limit = numbers[_ELEMENTS + 2 * count + j]
+        a, b = constants[_ELEMENTS + j], constants[_ELEMENTS + count + j]
+        limit = constants[_ELEMENTS + 2 * count + j]
         square = 0.0
         for i in range(4):
             stretch[i] = now[i] - memory[4 * j + i]
@@ -81,7 +81,7 @@ def _reaction(
     for i in range(6):
         elastic = 0.0
         for k in range(6):
-            beside = numbers[6 * i + k]
+            beside = constants[6 * i + k]
             elastic += beside * displacement[k]
             stiffness[i, k] += beside
             damping[i, k] = 0.0
@@ -90,7 +90,7 @@ def _reaction(
     return 0.0, stored
 
 
-@kernel
+@inner
 def _to_mudline(
     force: Array, tangent: Array, arm: float, reaction: Array, stiffness: Array
 ) -> None:
@@ -111,23 +111,23 @@ def _to_mudline(
 
 
 @restraint_commit
-def _commit(displacement: Array, numbers: Array, memory: Array) -> float:
-    count = int(numbers[_COUNT])
-    now = _decoupled(displacement, numbers[_ARM])
-    heat = 0.0
+def _commit(displacement: Array, constants: Array, memory: Array) -> float:
+    count = int(constants[_COUNT])
+    now = _decoupled(displacement, constants[_ARM])
+    dissipated = 0.0
     for j in range(count):
-        a, b = numbers[_ELEMENTS + j], numbers[_ELEMENTS + count + j]
-        limit = numbers[_ELEMENTS + 2 * count + j]
+        a, b = constants[_ELEMENTS + j], constants[_ELEMENTS + count + j]
+        limit = constants[_ELEMENTS + 2 * count + j]
         square = 0.0
         for i in range(4):
             square += (a if i < 2 else b) * (now[i] - memory[4 * j + i]) ** 2
         if square > limit**2 * (1 + _ROUNDING):
             size = np.sqrt(square)
             slip = 1 - limit / size
-            heat += limit * slip * size
+            dissipated += limit * slip * size
             for i in range(4):
                 memory[4 * j + i] += slip * (now[i] - memory[4 * j + i])
-    return heat
+    return dissipated
 
 
 @dataclass(frozen=True, eq=False)
@@ -164,7 +164,7 @@ class MacroElement(KernelRestraint):
         return float(self.stiffness[_X, _RY] / self.stiffness[_X, _X])
 
     @cached_property
-    def numbers(self) -> Array:
+    def constants(self) -> Array:
         beside = self.stiffness - _of_elements(
             self.arm, float(np.sum(self.translation)), float(np.sum(self.rotation))
         )

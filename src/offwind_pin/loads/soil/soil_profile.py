@@ -1,4 +1,4 @@
-"""Where a pile stands in the ground, and what the layers are around it."""
+"""Nodes of a pile in the ground, and the layers and stresses around them."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from offwind_pin.base.definition import Array
-from offwind_pin.definitions.soil.layers import Layer
-from offwind_pin.loads.soil.curves.laws import ON_BOUNDARY, Places
+from offwind_pin.definitions.soil.layers import SoilLayer
+from offwind_pin.loads.soil.curves.soil_curve import ON_BOUNDARY, Places
 
 
 @dataclass(frozen=True, eq=False)
-class Ground:
+class PileNodes:
     """Nodes of a pile below the mudline.
 
     Attributes
@@ -34,28 +34,28 @@ class Ground:
         """Depth below the original mudline in m, (n,); negative in deposited soil."""
         return self.depth + self.scour
 
-    def at(self, places: Places) -> Ground:
+    def at(self, places: Places) -> PileNodes:
         """Those nodes only; places are indices or a mask."""
-        return Ground(self.depth[places], self.diameter[places], self.length, self.scour)
+        return PileNodes(self.depth[places], self.diameter[places], self.length, self.scour)
 
     @property
-    def toe(self) -> Ground:
+    def toe(self) -> PileNodes:
         """One node at the toe, with the diameter of the deepest node."""
         diameter = self.diameter[[int(np.argmax(self.depth))]]
-        return Ground(np.array([self.length]), diameter, self.length, self.scour)
+        return PileNodes(np.array([self.length]), diameter, self.length, self.scour)
 
 
-def layer_index(layers: tuple[Layer, ...], ground: Ground) -> NDArray[np.intp]:
+def layer_index(layers: tuple[SoilLayer, ...], nodes: PileNodes) -> NDArray[np.intp]:
     """Number of the layer that each node lies in, (n,).
 
     Exactly on a boundary it is the layer below; deposited soil is that of the top layer.
     """
     tops = [layer.top for layer in layers]
-    found = np.searchsorted(tops, ground.original_depth + ON_BOUNDARY, side="right") - 1
+    found = np.searchsorted(tops, nodes.original_depth + ON_BOUNDARY, side="right") - 1
     return np.maximum(found, 0)
 
 
-def effective_stress(layers: tuple[Layer, ...], ground: Ground) -> Array:
+def effective_stress(layers: tuple[SoilLayer, ...], nodes: PileNodes) -> Array:
     """Vertical effective stress at the nodes in Pa, (n,), from the actual mudline down.
 
     General scour: what is above the actual mudline no longer weighs.
@@ -69,5 +69,5 @@ def effective_stress(layers: tuple[Layer, ...], ground: Ground) -> Array:
             total = total + layer.submerged_unit_weight * thickness
         return total
 
-    stress = weight_above(ground.original_depth) - weight_above(np.array(ground.scour))
-    return np.where(ground.depth > 0, stress, 0.0)
+    stress = weight_above(nodes.original_depth) - weight_above(np.array(nodes.scour))
+    return np.where(nodes.depth > 0, stress, 0.0)

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import re
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -12,16 +10,12 @@ import numpy as np
 
 from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError
-from offwind_pin.base.number_tables import read_text, to_numbers
-from offwind_pin.loads.point_load import KernelLoad, force_kernel, no_tangents
+from offwind_pin.base.number_tables import read_time_columns
+from offwind_pin.loads.point_load import Channel, KernelLoad, force_kernel, no_tangents
 
 COMPONENTS = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
 LARGEST_LOAD = 1e10
-"""N or N m, beyond anything a turbine gives."""
-_GAP = 5.0
-"""Times the median step, beyond which rows are missing."""
-_MANY = 20
-"""Steps from which on a file is sampled, and not a table of corners written by hand."""
+"""N or N m, beyond the loads of any turbine."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,10 +58,29 @@ class LoadHistory:
         share = np.clip((np.asarray(time) - start) / (end - start), 0.0, 1.0)[..., None]
         return (1 - share) * self.load[upper - 1] + share * self.load[upper]
 
+    def acting(self, yaw_bearing: float, start: float, end: float) -> TowerTopLoad:
+        """The load at a yaw bearing (m), with its mean from a start to an end (s).
+
+        Raises
+        ------
+        InputError : samples that do not reach from 0 to the end
+        """
+        if self.time[0] > 0 or self.time[-1] < end - 1e-9:
+            raise InputError(
+                f"load history {self.origin!r}, time",
+                f"{self.time[0]} to {self.time[-1]} s",
+                f"samples from 0 to at least {end} s",
+                "Shorten the simulation or extend the file.",
+            )
+        return TowerTopLoad(yaw_bearing, self, self.mean(start, end))
+
 
 @force_kernel
-def _forces(motion: Array, constants: Array, row: Array, memory: Array, force: Array) -> float:
-    force[0, :] = row
+def _forces(
+    motion: Array, constants: Array, time_inputs: Array, memory: Array, force: Array
+) -> float:
+    for j in range(6):
+        force[0, j] = time_inputs[j]
     return 0.0
 
 
@@ -95,9 +108,24 @@ class TowerTopLoad(KernelLoad):
     def constants(self) -> Array:
         return np.zeros((1, 0))
 
-    def rows(self, time: Array, rise: Array) -> Array:
+    def time_inputs(self, time: Array, ramp_factor: Array) -> Array:
         """(t, 6) applied load."""
-        return self.mean + rise[:, None] * (self.history.at(time) - self.mean)
+        return self.mean + ramp_factor[:, None] * (self.history.at(time) - self.mean)
+
+    @property
+    def surrogate(self) -> str | None:
+        return self.history.surrogate
+
+    @property
+    def channels(self) -> tuple[Channel, ...]:
+        about = "load applied at the yaw bearing"
+        return (Channel("tower_top_load", ("component",), "N for F, N m for M", about),)
+
+    def outputs(self, time: Array, ramp_factor: Array) -> dict[str, Array]:
+        return {"tower_top_load": self.time_inputs(time, ramp_factor)}
+
+    def attributes(self) -> dict[str, str]:
+        return {"tower_top_load_origin": self.history.origin}
 
 
 def constant_load(yaw_bearing: float, load: Array) -> TowerTopLoad:
@@ -122,69 +150,24 @@ def constant_load(yaw_bearing: float, load: Array) -> TowerTopLoad:
 def read_load_history(path: Path) -> LoadHistory:
     """Seven columns t, Fx, Fy, Fz, Mx, My, Mz in s, N and N m, as in OpenFAST's prescribed forces.
 
-    Columns are separated by blanks, tabs or commas; ``#``, ``!`` and ``%`` start a comment. Between
-    the samples the load is interpolated linearly.
+    For their separators see :func:`read_time_columns`. Between the samples the load is interpolated
+    linearly.
 
     Raises
     ------
-    InputError : missing, empty or truncated file; a cell that is no number; times that do not rise,
-        or leave a gap; loads beyond anything a turbine gives
+    InputError : missing, empty or truncated file; a cell that is not a number; times that do not
+        rise, or leave a gap; loads beyond those of any turbine
     """
-    text = read_text(path)
-    rows: list[tuple[float, ...]] = []
-    lines = []
-    for line, raw in enumerate(text.splitlines(), 1):
-        data = re.split(r"[#!%]", raw, maxsplit=1)[0].strip()
-        if not data:
-            continue
-        row = to_numbers(path, line, re.split(r"[\s,;]+", data), 7)
-        if max(map(abs, row[1:])) > LARGEST_LOAD:
-            raise InputError(
-                f"{path}, line {line}",
-                max(row[1:], key=abs),
-                f"loads below {LARGEST_LOAD:g} N or N m",
-                "Are the units N and N m?",
-            )
-        rows.append(row)
-        lines.append(line)
-    if len(rows) < 2:
+    values, lines, text = read_time_columns(path, 7)
+    load = values[:, 1:]
+    beyond = np.flatnonzero(np.max(np.abs(load), axis=1) > LARGEST_LOAD)
+    if len(beyond):
+        row = load[beyond[0]]
         raise InputError(
-            str(path), f"{len(rows)} rows", "two rows or more", "Is the file complete?"
+            f"{path}, line {lines[beyond[0]]}",
+            row[np.argmax(np.abs(row))],
+            f"loads below {LARGEST_LOAD:g} N or N m",
+            "Are the units N and N m?",
         )
-    values = np.array(rows)
-    check_times(path, values[:, 0], lines, "line")
     digest = hashlib.sha256(text.encode()).hexdigest()
-    return LoadHistory(values[:, 0], values[:, 1:], origin=f"{path.name} (SHA-256 {digest})")
-
-
-def check_times(path: Path, time: Array, place: Sequence[int], counted: str) -> None:
-    """Refuse times (t,) that do not rise, or that leave a gap in evenly sampled ones.
-
-    place : (t,) where they stand in the file, in what ``counted`` names
-
-    Raises
-    ------
-    InputError : with the place of the first fault
-    """
-    step = np.diff(time)
-    back = np.flatnonzero(~(step > 0))
-    if len(back):
-        i = int(back[0])
-        raise InputError(
-            f"{path}, {counted} {place[i + 1]}, column t",
-            float(time[i + 1]),
-            f"a time later than that of {counted} {place[i]} ({time[i]:g} s)",
-            "Sort the rows by time and remove repeated ones.",
-        )
-    if len(step) < _MANY:
-        return
-    usual = float(np.median(step))
-    gaps = np.flatnonzero(step > _GAP * usual)
-    if len(gaps):
-        i = int(gaps[0])
-        raise InputError(
-            f"{path}, {counted}s {place[i]} to {place[i + 1]}, column t",
-            f"a step of {step[i]:g} s ({len(gaps)} such)",
-            f"steps of about {usual:g} s, as elsewhere in the file",
-            "Are rows missing? Fill the gap, or shorten the file.",
-        )
+    return LoadHistory(values[:, 0], load, origin=f"{path.name} (SHA-256 {digest})")

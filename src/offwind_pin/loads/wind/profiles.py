@@ -2,11 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import Annotated, Any, Literal
 
 import numpy as np
+from pydantic import Discriminator, Field, Tag, model_validator
 
-from offwind_pin.base.definition import Array
+from offwind_pin.base.definition import (
+    Array,
+    Definition,
+    NonNegative,
+    Numbers,
+    Positive,
+    key,
+)
 from offwind_pin.base.errors import InputError
 
 LOWEST = 1.0
@@ -16,30 +24,14 @@ GUST_PERIOD = 10.5
 """Length of the extreme operating gust in s (IEC 61400-1:2005, 6.3.2.2)."""
 
 
-def check_positive(where: str, value: float, *, zero: bool = False) -> None:
-    """A finite number above zero, or from zero on.
-
-    Raises
-    ------
-    InputError : it is not
-    """
-    if not (np.isfinite(value) and (value > 0 or (zero and value == 0))):
-        allowed = "a number from 0" if zero else "a positive number"
-        raise InputError(where, value, allowed, "Correct it.")
-
-
-@dataclass(frozen=True)
-class PowerLaw:
+class PowerLaw(Definition, kw_only=False):
     """Wind that grows with a power of height, (z / z_ref)^exponent (IEC 61400-1:2005, Eq. 10).
 
     IEC 61400-3-1 takes an exponent of 0.14 for the normal wind at sea.
     """
 
-    exponent: float
-
-    def __post_init__(self) -> None:
-        if not (np.isfinite(self.exponent) and 0 <= self.exponent <= 1):
-            raise InputError("power law, exponent", self.exponent, "0 to 1", "Correct it.")
+    kind: Literal["power_law"] = Field(default="power_law", kw_only=True)
+    exponent: Annotated[NonNegative, Field(le=1)] = 0.14
 
     def ratio(self, height: Array, reference: float) -> Array:
         """(n,) speed at heights above the water over that at the reference height, both in m."""
@@ -47,19 +39,16 @@ class PowerLaw:
         return np.asarray(above**self.exponent)
 
 
-@dataclass(frozen=True)
-class LogLaw:
+class LogLaw(Definition, kw_only=False):
     """Wind that grows with the logarithm of height, ln(z / z0) / ln(z_ref / z0).
 
-    roughness : z0 in m; 0.001 and less over water
+    Attributes
+    ----------
+    roughness : float, m, z0; 0.001 and less over water
     """
 
-    roughness: float
-
-    def __post_init__(self) -> None:
-        if not (np.isfinite(self.roughness) and 0 < self.roughness < LOWEST / 2):
-            allowed = f"a length in m between 0 and {LOWEST / 2}"
-            raise InputError("log law, roughness", self.roughness, allowed, "Correct it.")
+    kind: Literal["log_law"] = Field(default="log_law", kw_only=True)
+    roughness: Annotated[Positive, Field(lt=LOWEST / 2)] = key("roughness_m")
 
     def ratio(self, height: Array, reference: float) -> Array:
         """(n,) speed at heights above the water over that at the reference height, both in m."""
@@ -67,26 +56,24 @@ class LogLaw:
         return np.asarray(above / np.log(reference / self.roughness))
 
 
-Profile = PowerLaw | LogLaw
+Profile = Annotated[PowerLaw | LogLaw, Field(discriminator="kind")]
 
 
-@dataclass(frozen=True)
-class ExtremeOperatingGust:
+class ExtremeOperatingGust(Definition, kw_only=False):
     """IEC's gust: a dip, a peak and a dip, V - 0.37 V_gust sin(3 pi t/T) (1 - cos(2 pi t/T)).
 
     IEC 61400-1:2005, 6.3.2.2, Eq. 17 (size) and 18 (shape). It is the same at all heights.
 
-    size : V_gust in m/s; start : of the gust in s; period : T in s
+    Attributes
+    ----------
+    size : float, m/s, V_gust
+    start : float, s, when it begins
+    period : float, s, T
     """
 
-    size: float
-    start: float
-    period: float = GUST_PERIOD
-
-    def __post_init__(self) -> None:
-        check_positive("gust, size", self.size)
-        check_positive("gust, start", self.start, zero=True)
-        check_positive("gust, period", self.period)
+    size: Annotated[Positive, Field(le=60)] = key("size_m_per_s")
+    start: NonNegative = key("start_s")
+    period: Positive = key("period_s", default=GUST_PERIOD)
 
     @staticmethod
     def of_class(
@@ -117,7 +104,8 @@ class ExtremeOperatingGust:
             ("reference_speed", reference_speed),
             ("turbulence", turbulence),
         ):
-            check_positive(f"gust, {name}", value)
+            if not 0 < value < np.inf:
+                raise InputError(f"gust, {name}", value, "a positive number", "Correct it.")
         of_a_year = 0.8 * 1.4 * reference_speed
         if hub_speed >= of_a_year:
             allowed = f"less than the extreme wind of a year ({of_a_year:g} m/s)"
@@ -136,31 +124,41 @@ class ExtremeOperatingGust:
         return np.asarray(-0.37 * self.size * shape)
 
 
-@dataclass(frozen=True, eq=False)
-class WindSeries:
-    """Departures of the wind from its mean, in m/s; linear in between, the ends hold beyond.
+class WindSeries(Definition, kw_only=False):
+    """Departures of the wind from its mean, linear in between and constant beyond both ends.
 
-    time (t,) in s, rising; departure (t,) in m/s, the same at all heights
+    Attributes
+    ----------
+    time : (t,) s, rising
+    departure : (t,) m/s, the same at all heights
     """
 
-    time: Array
-    departure: Array
+    time: Annotated[Numbers, Field(min_length=2)] = key("time_s")
+    departure: Numbers = key("departure_m_per_s")
 
-    def __post_init__(self) -> None:
-        time, departure = np.asarray(self.time, float), np.asarray(self.departure, float)
-        object.__setattr__(self, "time", time)
-        object.__setattr__(self, "departure", departure)
-        if time.ndim != 1 or time.shape != departure.shape or len(time) < 2:
-            shapes = f"time {time.shape}, departure {departure.shape}"
-            raise InputError("wind series", shapes, "two rows of one length", "Reshape them.")
-        if not (np.all(np.isfinite(time)) and np.all(np.isfinite(departure))):
-            raise InputError("wind series", "NaN or infinity", "finite numbers", "Correct them.")
-        if np.any(np.diff(time) <= 0):
-            raise InputError("wind series, time", time.tolist(), "rising times", "Sort them.")
+    @model_validator(mode="after")
+    def _is_a_series(self) -> WindSeries:
+        if len(self.time) != len(self.departure):
+            raise ValueError(
+                f"the series has {len(self.time)} times and {len(self.departure)} departures; give "
+                "one departure for each time"
+            )
+        if np.any(np.diff(self.time) <= 0):
+            raise ValueError("the times do not rise strictly; sort them")
+        return self
 
     def at(self, time: Array) -> Array:
         """(t,) departure from the mean wind in m/s."""
         return np.interp(time, self.time, self.departure)
 
 
-Gust = ExtremeOperatingGust | WindSeries
+def _series_or_gust(value: Any) -> str:
+    if isinstance(value, dict):
+        return "series" if {"time_s", "time"} & value.keys() else "gust"
+    return "series" if isinstance(value, WindSeries) else "gust"
+
+
+Gust = Annotated[
+    Annotated[ExtremeOperatingGust, Tag("gust")] | Annotated[WindSeries, Tag("series")],
+    Discriminator(_series_or_gust),
+]

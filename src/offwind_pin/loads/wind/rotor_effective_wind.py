@@ -8,11 +8,22 @@ frequencies goes to 3P, 6P, 9P (Kristensen and Frandsen 1982; Sorensen, Hansen a
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated, Literal, Self
 
 import numpy as np
+from pydantic import Field, model_validator
 
-from offwind_pin.base.definition import Array, ComplexArray
+from offwind_pin.base.definition import (
+    Array,
+    ComplexArray,
+    Definition,
+    NonNegative,
+    Positive,
+    Seed,
+    key,
+)
 from offwind_pin.base.errors import InputError
+from offwind_pin.base.seeds import random_stream
 from offwind_pin.definitions.rotor_disc import RotorDisc
 from offwind_pin.loads.wind.history import WindHistory
 
@@ -22,9 +33,6 @@ TURBULENCE_CLASSES = {"A": 0.16, "B": 0.14, "C": 0.12}
 HIGHEST_ORDER = 4
 """Multiples of the blade-passing frequency that are kept; the next hold less than 1 % of the
 variance."""
-
-_STREAM = 3
-"""Keeps the random numbers of waves and wind apart when a case gives both one seed."""
 
 _COHERENCE_DECAY = 12.0
 _COHERENCE_OFFSET = 0.12
@@ -172,29 +180,50 @@ def _gauss(count: int) -> tuple[Array, Array]:
     return (points + 1) / 2, weights / 2
 
 
-@dataclass(frozen=True)
-class RotorWind:
+class RotorWind(Definition, kw_only=False):
     """Settings of the wind that a rotor meets.
 
     Attributes
     ----------
-    wind_speed : mean at the hub in m/s
-    turbulence_intensity : standard deviation over the mean
-    shear_exponent : of the power law; 0.14 offshore, 0.2 on land (IEC 61400-3 ed. 1, 6.3.1.2;
-        61400-1 ed. 3, 6.3.1.2)
-    tower_shadow : whether the tower slows the wind before it
-    seed : of the phases
+    wind_speed : float, m/s, mean at the hub
+    turbulence_intensity : float, standard deviation over the mean
+    shear_exponent : float, of the power law; 0.14 offshore, 0.2 on land (IEC 61400-3 ed. 1,
+        6.3.1.2; 61400-1 ed. 3, 6.3.1.2)
+    tower_shadow : bool, whether the tower slows the wind in front of it
+    seed : int, of the phases; by default that of the load case, or 1
+    turbulence_class : IEC 61400-1's A, B or C, in place of the turbulence intensity
     """
 
-    wind_speed: float
-    turbulence_intensity: float
-    shear_exponent: float = 0.14
+    wind_speed: Annotated[Positive, Field(ge=1, le=60)] = key("wind_speed_m_per_s")
+    turbulence_intensity: Annotated[NonNegative, Field(le=1)] | None = None
+    shear_exponent: Annotated[NonNegative, Field(le=1)] = 0.14
     tower_shadow: bool = True
-    seed: int = 1
+    seed: Seed | None = None
+    turbulence_class: Literal["A", "B", "C"] | None = Field(default=None, kw_only=True)
+
+    @model_validator(mode="after")
+    def _one_turbulence(self) -> Self:
+        if (self.turbulence_class is None) == (self.turbulence_intensity is None):
+            raise ValueError(
+                "the turbulence is given twice or not at all; give either turbulence_class (A, B "
+                "or C) or turbulence_intensity"
+            )
+        return self
+
+    @property
+    def intensity(self) -> float:
+        """Standard deviation of the wind over its mean."""
+        if self.turbulence_class is not None:
+            return normal_turbulence(self.wind_speed, self.turbulence_class) / self.wind_speed
+        return self.turbulence_intensity or 0.0
+
+    def completed(self, seed: int) -> Self:
+        """The same, drawn by the seed of a load case where it has none of its own."""
+        return self if self.seed is not None else self.replace(seed=seed)
 
     def turbulence(self, disc: RotorDisc) -> Turbulence:
         """Of this wind at the hub's height."""
-        deviation = self.turbulence_intensity * self.wind_speed
+        deviation = self.intensity * self.wind_speed
         return Turbulence(self.wind_speed, deviation, scale_parameter(disc.hub_height))
 
     def of_rotor(self, disc: RotorDisc) -> RotorTurbulence:
@@ -232,9 +261,9 @@ class RotorWind:
         count = int(np.ceil(repeat_period / dt - 1e-9))
         time = np.arange(count) * repeat_period / count
         order = np.arange(1, int(highest * repeat_period) + 1)
-        rng = np.random.default_rng((self.seed, _STREAM))
+        rng = random_stream(self.wind_seed, "rotor_wind")
         lines = np.zeros(count // 2 + 1, dtype=complex)
-        if self.turbulence_intensity > 0:
+        if self.intensity > 0:
             spectrum = rotor.thrust_spectrum(order / repeat_period)
             phase = rng.uniform(0, 2 * np.pi, len(order))
             lines[order] = count / 2 * np.sqrt(2 * spectrum / repeat_period) * np.exp(1j * phase)
@@ -272,9 +301,13 @@ class RotorWind:
             wind = wind * (1 - radius**2 * (ahead**2 - across**2) / (ahead**2 + across**2) ** 2)
         return np.asarray(wind @ weight)
 
+    @property
+    def wind_seed(self) -> int:
+        """What draws it: its own seed, or 1."""
+        return 1 if self.seed is None else self.seed
+
     def _describe(self) -> str:
         return (
             f"rotor-effective wind, {self.wind_speed:g} m/s, turbulence intensity "
-            f"{self.turbulence_intensity:.4g}, shear exponent {self.shear_exponent:g}, seed "
-            f"{self.seed}"
+            f"{self.intensity:.4g}, shear exponent {self.shear_exponent:g}, seed {self.wind_seed}"
         )

@@ -16,9 +16,18 @@ import numpy as np
 from offwind_pin.base.definition import Array
 from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError
-from offwind_pin.base.kernels import kernel
+from offwind_pin.base.kernels import inner, kernel
 from offwind_pin.definitions.rotor_disc import RotorDisc
-from offwind_pin.loads.point_load import KernelLoad, commit_kernel, force_kernel, tangent_kernel
+from offwind_pin.loads.point_load import (
+    AXIS,
+    BY_AXIS,
+    BY_VELOCITY,
+    VELOCITY,
+    KernelLoad,
+    commit_kernel,
+    force_kernel,
+    tangent_kernel,
+)
 from offwind_pin.loads.wind.history import WindHistory
 from offwind_pin.loads.wind.thrust_table import (
     ThrustTable,
@@ -45,8 +54,12 @@ _TIME, _WIND, _OPERATING, _DRIVEN, _INDUCED = range(5)
 """Memory, as of the last step: time; relative wind, operating point of the controller, induced
 velocity that the wake heads for, induced velocity: departures from the mean's, in m/s."""
 
+_TIME_INPUT, _WIND_INPUT = range(2)
+"""Time inputs: time, and wind speed along the shaft."""
+_V = VELOCITY.start
 
-@kernel
+
+@inner
 def lag_weights(step: float, time_constant: float) -> tuple[float, float, float]:
     """Of the last output and of the last and the new input of a first-order lag.
 
@@ -74,9 +87,9 @@ def _shaft(axis: Array, cosine: float, sine: float) -> tuple[float, float, float
     )
 
 
-@kernel
+@inner
 def _operate(
-    c: Array, row: Array, memory: Array, wind: float
+    c: Array, time_inputs: Array, memory: Array, wind: float
 ) -> tuple[float, float, float, float, float]:
     """Thrust and its slope by the relative wind; then operating point, driven and induced velocity.
 
@@ -85,7 +98,7 @@ def _operate(
     """
     step = 0.0
     if len(memory) > 0:
-        step = max(row[0] - memory[_TIME], 0.0)
+        step = max(time_inputs[_TIME_INPUT] - memory[_TIME], 0.0)
     mean = c[_MEAN]
     operating, operating_slope = wind, 1.0
     if c[_CONTROL_TIME] > 0:
@@ -112,16 +125,22 @@ def _operate(
     return thrust, c[_PRESSURE] * slope, operating, driven, induced
 
 
-@kernel
-def _relative_wind(motion: Array, row: Array, n: tuple[float, float, float, float]) -> float:
-    return row[1] - motion[6] * n[0] - motion[7] * n[1] - motion[8] * n[2]
+@inner
+def _relative_wind(
+    motion: Array, time_inputs: Array, n: tuple[float, float, float, float]
+) -> float:
+    return (
+        time_inputs[_WIND_INPUT] - motion[_V] * n[0] - motion[_V + 1] * n[1] - motion[_V + 2] * n[2]
+    )
 
 
 @force_kernel
-def _forces(motion: Array, constants: Array, row: Array, memory: Array, force: Array) -> float:
+def _forces(
+    motion: Array, constants: Array, time_inputs: Array, memory: Array, force: Array
+) -> float:
     c = constants[0]
-    n = _shaft(motion[0, 9:12], c[_COSINE], c[_SINE])
-    thrust, _, _, _, _ = _operate(c, row, memory, _relative_wind(motion[0], row, n))
+    n = _shaft(motion[0, AXIS], c[_COSINE], c[_SINE])
+    thrust, _, _, _, _ = _operate(c, time_inputs, memory, _relative_wind(motion[0], time_inputs, n))
     for j in range(3):
         force[0, j] = thrust * n[j]
         force[0, 3 + j] = 0.0
@@ -129,11 +148,15 @@ def _forces(motion: Array, constants: Array, row: Array, memory: Array, force: A
 
 
 @tangent_kernel
-def _tangents(motion: Array, constants: Array, row: Array, memory: Array, blocks: Array) -> None:
+def _tangents(
+    motion: Array, constants: Array, time_inputs: Array, memory: Array, blocks: Array
+) -> None:
     c = constants[0]
-    axis, cosine, sine = motion[0, 9:12], c[_COSINE], c[_SINE]
+    axis, cosine, sine = motion[0, AXIS], c[_COSINE], c[_SINE]
     n = _shaft(axis, cosine, sine)
-    thrust, slope, _, _, _ = _operate(c, row, memory, _relative_wind(motion[0], row, n))
+    thrust, slope, _, _, _ = _operate(
+        c, time_inputs, memory, _relative_wind(motion[0], time_inputs, n)
+    )
     by_axis = np.zeros((3, 3))
     cube = n[3] ** 3
     by_axis[0, 0] = sine - cosine * axis[2] * axis[0] / cube
@@ -143,21 +166,21 @@ def _tangents(motion: Array, constants: Array, row: Array, memory: Array, blocks
     by_axis[2, 2] = sine + cosine * axis[0] * axis[2] / cube
     for i in range(3):
         for j in range(3):
-            blocks[0, 1, i, j] = -slope * n[i] * n[j]
+            blocks[0, BY_VELOCITY, i, j] = -slope * n[i] * n[j]
             turned = 0.0
             for k in range(3):
-                turned += motion[0, 6 + k] * by_axis[k, j]
-            blocks[0, 3, i, j] = thrust * by_axis[i, j] - slope * n[i] * turned
+                turned += motion[0, _V + k] * by_axis[k, j]
+            blocks[0, BY_AXIS, i, j] = thrust * by_axis[i, j] - slope * n[i] * turned
 
 
 @commit_kernel
-def _commit(motion: Array, constants: Array, row: Array, memory: Array) -> float:
+def _commit(motion: Array, constants: Array, time_inputs: Array, memory: Array) -> float:
     if len(memory) == 0:
         return 0.0
     c = constants[0]
-    wind = _relative_wind(motion[0], row, _shaft(motion[0, 9:12], c[_COSINE], c[_SINE]))
-    _, _, operating, driven, induced = _operate(c, row, memory, wind)
-    memory[_TIME] = row[0]
+    wind = _relative_wind(motion[0], time_inputs, _shaft(motion[0, AXIS], c[_COSINE], c[_SINE]))
+    _, _, operating, driven, induced = _operate(c, time_inputs, memory, wind)
+    memory[_TIME] = time_inputs[_TIME_INPUT]
     memory[_WIND] = wind - c[_MEAN]
     memory[_OPERATING] = operating - c[_MEAN]
     memory[_DRIVEN] = driven - c[_MEAN_INDUCED]
@@ -239,10 +262,13 @@ class RotorThrust(KernelLoad):
     def memory_size(self) -> int:
         return 5 if self.control == "lagged" or self.inflow_lag else 0
 
-    def rows(self, time: Array, rise: Array) -> Array:
+    def time_inputs(self, time: Array, ramp_factor: Array) -> Array:
         """(t, 2) time, and wind speed along the shaft."""
         mean = self.wind.mean
-        return np.column_stack([time, mean + rise * (self.wind.at(time) - mean)])
+        return np.column_stack([time, mean + ramp_factor * (self.wind.at(time) - mean)])
+
+    def attributes(self) -> dict[str, str]:
+        return {"rotor_wind_origin": self.wind.origin, "rotor_control": self.control}
 
     def steady_load(self) -> Array:
         """(6,) load at the yaw bearing in the mean wind on an upright axis, in N and N m."""

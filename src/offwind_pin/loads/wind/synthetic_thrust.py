@@ -1,4 +1,4 @@
-"""A synthetic tower-top load for a parked-pitch, below-rated wind, where no load file is to hand.
+"""A synthetic tower-top load for a parked-pitch, below-rated wind, where no load file is available.
 
 It stands in for a prescribed history, so that it feels no motion and keeps the benchmark's own
 blade-passing frequency; a wind derived for a running rotor is in ``rotor_turbulence``. It is a
@@ -9,18 +9,18 @@ of shear, tower and turbulence gives.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from typing import Annotated, ClassVar, Literal, Self
 
 import numpy as np
+from pydantic import Field
 
-from offwind_pin.base.definition import Array
+from offwind_pin.base.definition import Array, Definition, NonNegative, Positive, Seed, key
 from offwind_pin.base.errors import InputError
+from offwind_pin.base.seeds import random_stream
 from offwind_pin.definitions.rotor_nacelle import rotor_apex, rotor_radius
 from offwind_pin.definitions.turbine import RotorNacelleRNA
 from offwind_pin.loads.tower_top.load_history import LoadHistory
-
-_STREAM = 2
-"""Keeps the random numbers of waves and wind apart when a case gives both one seed."""
 
 _HIGHEST_FREQUENCY = 5.0
 """Hz; turbulence and harmonics hold nothing of note beyond."""
@@ -104,30 +104,36 @@ def operate_rotor(
     )
 
 
-@dataclass(frozen=True)
-class SyntheticWind:
+class SyntheticWind(Definition, kw_only=False):
     """Settings of the generator; assumed where no derivation is named.
 
     Attributes
     ----------
-    wind_speed : mean at hub height in m/s
-    blade_passing_frequency : 3P in Hz
-    turbulence_intensity : standard deviation of the wind over its mean
+    wind_speed : float, m/s, mean at hub height
+    blade_passing_frequency : float, Hz, 3P
+    turbulence_intensity : float, standard deviation of the wind over its mean
     harmonics : standard deviation of the thrust at 3P, 6P, 9P over the mean thrust
-    coherent_fraction : share of the variance at 3P that is a pure tone (shear and tower shadow);
-        its square that at 6P, its cube that at 9P; the rest is turbulence cut by the blades
+    coherent_fraction : float, share of the variance at 3P that is a pure tone (shear and tower
+        shadow); its square that at 6P, its cube that at 9P; the rest is turbulence sampled by the
+        blades
+    seed : int, by default that of the load case, or 1
     """
 
-    wind_speed: float
-    blade_passing_frequency: float
-    turbulence_intensity: float = 0.10
-    harmonics: tuple[float, ...] = (0.05, 0.02, 0.012)
-    coherent_fraction: float = 0.3
-    seed: int = 1
-    surrogate: str = field(
-        default="synthetic: the benchmark's own tower-top load history is not to hand",
-        init=False,
+    kind: Literal["synthetic"] = Field(default="synthetic", kw_only=True)
+    wind_speed: Annotated[Positive, Field(ge=1, le=25)] = key("wind_speed_m_per_s")
+    blade_passing_frequency: Annotated[Positive, Field(le=5)] = key("blade_passing_frequency_hz")
+    turbulence_intensity: Annotated[NonNegative, Field(le=1)] = 0.10
+    harmonics: tuple[NonNegative, ...] = (0.05, 0.02, 0.012)
+    coherent_fraction: Annotated[NonNegative, Field(le=1)] = 0.3
+    seed: Seed | None = None
+
+    surrogate: ClassVar[str] = (
+        "synthetic: the benchmark's own tower-top load history is not available"
     )
+
+    def completed(self, seed: int) -> Self:
+        """The same, drawn by the seed of a load case where it has none of its own."""
+        return self if self.seed is not None else self.replace(seed=seed)
 
     def generate(
         self, rna: RotorNacelleRNA, *, duration: float, repeat_period: float, dt: float = 0.02
@@ -149,7 +155,7 @@ class SyntheticWind:
         """
         _check_sampling(dt, repeat_period)
         rotor = operate_rotor(rna, self.wind_speed, self.blade_passing_frequency)
-        rng = np.random.default_rng((self.seed, _STREAM))
+        rng = random_stream(self.wind_seed, "synthetic_wind")
         count = int(np.ceil(repeat_period / dt - 1e-9))
         interval = repeat_period / count
         frequency = np.arange(1, int(_HIGHEST_FREQUENCY * repeat_period) + 1) / repeat_period
@@ -184,8 +190,13 @@ class SyntheticWind:
         size = 2 * frequency * np.sqrt(rotor.swept_area) / self.wind_speed
         return kaimal / (1 + size ** (4 / 3)) ** 2
 
+    @property
+    def wind_seed(self) -> int:
+        """What draws it: its own seed, or 1."""
+        return 1 if self.seed is None else self.seed
+
     def _describe(self) -> str:
-        return f"synthetic wind load, {self.wind_speed} m/s, seed {self.seed}"
+        return f"synthetic wind load, {self.wind_speed} m/s, seed {self.wind_seed}"
 
 
 def steady_load(rna: RotorNacelleRNA, rotor: RotorOperation) -> Array:

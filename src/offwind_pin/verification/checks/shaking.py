@@ -101,7 +101,7 @@ def tuned_amplification(mass_ratio: float) -> Found:
     )
     turbine = bare.turbine.model_copy(update={"tuned_mass_dampers": (damper,)})
     system = build(turbine, "clamped", elements=6)
-    equations, rest = system.equations((), np.inf), np.zeros(system.nv)
+    equations, rest = system.equations((), None), np.zeros(system.nv)
     stiffness, damping = equations.tangents(0.0, rest, rest)
     inertia = equations.mass(rest)
     along = axis_jacobian(equations.chain_motion(rest, rest), system.chain.top)[0]

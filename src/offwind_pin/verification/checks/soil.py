@@ -13,7 +13,7 @@ from offwind_pin.analysis.static import static
 from offwind_pin.base.definition import Array
 from offwind_pin.definitions.soil.springs import SoilDashpot
 from offwind_pin.loads.point_load import PointMotion
-from offwind_pin.loads.soil.curves.laws import tanh_curves
+from offwind_pin.loads.soil.curves.laws import TanhCurves
 from offwind_pin.loads.soil.springs.dashpot import Dashpot
 from offwind_pin.loads.soil.springs.elastic import LATERAL, SoilSprings
 from offwind_pin.verification.ledger import Found
@@ -80,7 +80,7 @@ def dashpot_cycle() -> Found:
     On a circle the secant of a curve is constant, and two directions take 2 pi beta K_s y^2 each.
     """
     factor, frequency, length, y, depth = 0.03, 0.236, 0.75, 0.02, np.array([-40.0])
-    curves = tanh_curves(np.array([3e8]), np.array([5e6]))
+    curves = TanhCurves(np.array([3e8]), np.array([5e6]))
     dashpot = Dashpot.of(SoilDashpot(damping_factor=factor, load_frequency_hz=frequency))
     soil = SoilSprings("soil", LATERAL, depth, np.array([length]), curves, dashpot)
     omega, count, heat = 2 * np.pi * frequency, 200, 0.0

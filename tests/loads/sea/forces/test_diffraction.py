@@ -9,7 +9,7 @@ import offwind_pin as ow
 from offwind_pin.loads.sea.forces.maccamy_fuchs import SMALLEST, inertia_factor, maccamy_fuchs
 from offwind_pin.loads.sea.forces.morison import MorisonForce
 from offwind_pin.loads.sea.forces.strips import Strips
-from offwind_pin.loads.sea.hydrodynamic_loads import Waters
+from offwind_pin.loads.sea.hydrodynamic_loads import HydrodynamicModel
 from offwind_pin.loads.sea.waves.dispersion import wave_number
 
 SIZES = np.array([0.05, 0.1, 0.3, 0.7, 1.0, 1.5, 2.0, 3.0])
@@ -93,10 +93,10 @@ def test_without_diffraction_short_waves_are_overstated() -> None:
     assert 2 / closed_form(1.5)[0] > 1.5
 
 
-def diffracted(oc6: ow.Turbine, name: str) -> Waters:
+def diffracted(oc6: ow.Turbine, name: str) -> HydrodynamicModel:
     keys = {"diffraction": name, "added_mass_coefficient": ADDED}
     turbine = oc6.model_copy(update={"hydrodynamics": oc6.hydrodynamics.model_copy(update=keys)})
-    return Waters.of(turbine, ow.IrregularWaves(2.0, 6.0, seed=4, repeat_period=300.0))
+    return HydrodynamicModel.of(turbine, ow.IrregularWaves(2.0, 6.0, seed=4, repeat_period=300.0))
 
 
 def test_a_sea_s_harmonics_are_each_diffracted(oc6: ow.Turbine) -> None:
@@ -106,10 +106,10 @@ def test_a_sea_s_harmonics_are_each_diffracted(oc6: ow.Turbine) -> None:
     for name in ("maccamy_fuchs", "none"):
         waters = diffracted(oc6, name)
         n = len(waters.strips.height)
-        rows = waters.wave_force().rows(time, np.ones(len(time)))
+        rows = waters.wave_force().time_inputs(time, np.ones(len(time)))
         pushed = rows[:, 1 + 3 * n :].reshape(-1, n, 3)[:, :, [0, 2]]
         spectra.append(np.fft.rfft(pushed, axis=0))
-        assert np.all(waters.wave_force().rows(time[:1], np.zeros(1)) == 0)
+        assert np.all(waters.wave_force().time_inputs(time[:1], np.zeros(1)) == 0)
     harmonic = np.arange(21, 240)
     omega = 2 * np.pi * harmonic / 300.0
     k = wave_number(omega, 30.0, GRAVITY)
@@ -127,7 +127,7 @@ def test_a_sea_s_harmonics_are_each_diffracted(oc6: ow.Turbine) -> None:
 def test_velocities_are_those_of_the_undisturbed_wave(oc6: ow.Turbine) -> None:
     time = np.linspace(0.0, 7.0, 5)
     rows = [
-        diffracted(oc6, name).wave_force().rows(time, np.ones(5))[:, : 1 + 3 * 60]
+        diffracted(oc6, name).wave_force().time_inputs(time, np.ones(5))[:, : 1 + 3 * 60]
         for name in ("maccamy_fuchs", "none")
     ]
     assert np.array_equal(*rows)

@@ -12,7 +12,7 @@ from offwind_pin.definitions.hydrodynamics import FloodedPile, MarineGrowth
 from offwind_pin.loads.sea.forces.added_mass import AddedMass
 from offwind_pin.loads.sea.forces.buoyancy import Buoyancy
 from offwind_pin.loads.sea.forces.morison import MorisonForce
-from offwind_pin.loads.sea.hydrodynamic_loads import Waters, contents
+from offwind_pin.loads.sea.hydrodynamic_loads import HydrodynamicModel, contents
 from offwind_pin.structure.frustum import AxialBody
 from offwind_pin.structure.section import frusta, lump
 
@@ -94,13 +94,13 @@ def test_without_growth_bodies_are_the_same_to_the_last_bit(oc6: ow.Turbine) -> 
 
 def test_loads_see_the_larger_diameter(oc6: ow.Turbine, grown: ow.Turbine) -> None:
     """Added mass, inertia and drag on D + 2 t; the layer's own drag coefficient where it has one."""
-    waters = Waters.of(grown, ow.StillWater())
+    waters = HydrodynamicModel.of(grown, ow.StillWater())
     z = waters.strips.height
     diameter = np.where(z < -10, 9.2, 9.1)
     drag = np.where(z < -10, 1.2, 1.0)
     assert waters.strips.diameter == pytest.approx(diameter, rel=1e-14)
     assert waters.drag.tolist() == drag.tolist()
-    added, wave, *rest = Waters.of(grown, ow.StillWater()).loads()
+    added, wave, *rest = HydrodynamicModel.of(grown, ow.StillWater()).loads()
     assert rest == []
     assert isinstance(added, AddedMass)
     assert isinstance(wave, MorisonForce)
@@ -161,7 +161,7 @@ def test_what_a_turbine_s_water_is(oc6: ow.Turbine) -> None:
         keys: dict[str, Any] = {"buoyancy": floats}
         if inside is not None:
             keys["contents"] = inside
-        loads = Waters.of(changed(oc6, **keys), ow.StillWater()).loads()
+        loads = HydrodynamicModel.of(changed(oc6, **keys), ow.StillWater()).loads()
         assert [load.name for load in loads] == expected
 
 

@@ -9,7 +9,7 @@ import offwind_pin as ow
 from offwind_pin.analysis.tower_drag import tower_drag
 from offwind_pin.definitions.hydrodynamics import FloodedPile, MarineGrowth
 from offwind_pin.loads.wind.profiles import ExtremeOperatingGust, PowerLaw
-from offwind_pin.loads.wind.tower_drag import TowerWind
+from offwind_pin.loads.wind.tower_wind import TowerWind
 
 STEPS = np.array([0.04, 0.02, 0.01])
 

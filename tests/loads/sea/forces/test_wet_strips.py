@@ -114,8 +114,8 @@ def test_drag_and_inertia_follow_the_surface() -> None:
     """In a uniform stream both forces grow with the depth of water."""
 
     class Stream(SteadyWater):
-        def rows(self, time: Array, rise: Array) -> Array:
-            rows = super().rows(time, rise)
+        def time_inputs(self, time: Array, ramp_factor: Array) -> Array:
+            rows = super().time_inputs(time, ramp_factor)
             rows[:, 1 + 3 * self.count :] = np.tile([0.4, 0.0, 0.0], self.count)
             return rows
 

@@ -11,7 +11,7 @@ from numpy.testing import assert_allclose
 import offwind_pin as ow
 from offwind_pin.base.definition import Array, ComplexArray
 from offwind_pin.definitions.hydrodynamics import Hydrodynamics
-from offwind_pin.loads.sea.hydrodynamic_loads import Waters
+from offwind_pin.loads.sea.hydrodynamic_loads import HydrodynamicModel
 from offwind_pin.loads.sea.kinematics import WaterSeries, WaterSurface
 from offwind_pin.loads.sea.waves import second_order as second_order_waves
 from offwind_pin.loads.sea.waves.fourier_wave import SteadyWave
@@ -439,11 +439,11 @@ def test_at_a_turbine(oc6: ow.Turbine) -> None:
         }
     )
     turbine = oc6.model_copy(update={"hydrodynamics": table})
-    bound = Waters.of(turbine, BoundWaves(6.0, 10.0, seed=1, repeat_period=600.0))
-    plain = Waters.of(turbine, ow.IrregularWaves(6.0, 10.0, seed=1, repeat_period=600.0))
+    bound = HydrodynamicModel.of(turbine, BoundWaves(6.0, 10.0, seed=1, repeat_period=600.0))
+    plain = HydrodynamicModel.of(turbine, ow.IrregularWaves(6.0, 10.0, seed=1, repeat_period=600.0))
     assert_allclose(bound.drag, plain.drag, rtol=1e-13)
     time = np.array([13.0, 250.0])
-    rows, linear = (w.water.rows(time, np.ones(2)) for w in (bound, plain))
+    rows, linear = (w.water.time_inputs(time, np.ones(2)) for w in (bound, plain))
     assert np.all(np.isfinite(rows))
     off = np.max(np.abs(rows - linear), axis=0)
     assert 0 < np.max(off) < 0.5 * np.max(np.abs(linear))
@@ -456,7 +456,7 @@ def test_series_is_the_sum(stretching: str) -> None:
     waves = SecondOrderWaves(linear)
     z, time = np.array([-29.0, -12.0, -6.0]), np.array([17.3, 402.0])
     surface = WaterSurface(waves, 0.0, stretching)  # type: ignore[arg-type]
-    rows = WaterSeries(z, surface).rows(time, np.ones(2))[:, 1:].reshape(2, 2, 3, 3)
+    rows = WaterSeries(z, surface).time_inputs(time, np.ones(2))[:, 1:].reshape(2, 2, 3, 3)
     turn = np.exp(1j * np.outer(waves.omega, time))
     for quantity, field in enumerate((waves.velocity(z), waves.acceleration(z))):
         assert_allclose(rows[:, quantity], (field @ turn).real.transpose(2, 1, 0), atol=1e-4)

@@ -142,28 +142,6 @@ def test_direction_turns_all_components() -> None:
     assert np.max(np.abs(velocity[0])) < 1e-12
 
 
-@pytest.mark.parametrize(
-    "change", [{"peak_shape": 0.5}, {"peak_shape": "pm"}, {"direction_deg": np.nan}]
-)
-def test_seas_that_cannot_be(change: dict[str, Any]) -> None:
-    with pytest.raises(ow.InputError, match="waves"):
-        sea(**change)
-
-
-@pytest.mark.parametrize(
-    "make",
-    [
-        lambda: ow.RegularWaves(-1.0, 9.0),
-        lambda: ow.RegularWaves(1.0, 9.0, np.inf),
-        lambda: ow.StreamWaves(6.0, 9.0, np.nan),
-        lambda: ow.StreamWaves(6.0, 9.0, crest_time=np.nan),
-    ],
-)
-def test_regular_waves_that_cannot_be(make: Any) -> None:
-    with pytest.raises(ow.InputError, match="waves, field"):
-        make()
-
-
 def test_depth_factor_by_its_definition() -> None:
     """(k^-3 dk/domega) over that of deep water, with dk/domega by differences of the dispersion."""
     f, step = np.array([0.03, 0.08, 0.15, 0.4]), 1e-6
@@ -240,29 +218,3 @@ def test_table_gives_back_its_spectrum() -> None:
     assert_allclose(np.abs(mine.elevation) ** 2 / 2 * 1000.0, exact, rtol=1e-9)
     assert "SHA-256" in repr(table)
     assert repr(table) != repr(ow.TableSpectrum(tuple(f), tuple(2 * density)))
-
-
-@pytest.mark.parametrize(
-    ("frequency", "density", "words"),
-    [
-        ((0.1, 0.2), (1.0, 1.0), "three frequencies"),
-        ((0.1, 0.2, 0.3), (1.0, 1.0), "a density for each"),
-        ((0.1, 0.3, 0.2), (1.0, 1.0, 1.0), "Sort the table"),
-        ((0.0, 0.1, 0.2), (1.0, 1.0, 1.0), "positive"),
-        ((0.1, 0.2, 0.3), (1.0, -1.0, 1.0), "density at 0.2 Hz"),
-        ((0.1, 0.2, 0.3), (1.0, np.nan, 1.0), "finite"),
-        ((0.1, 0.2, 0.3), (0.0, 0.0, 0.0), "some variance"),
-        ((0.1, 0.11, 0.12, 0.3), (1.0, 1.0, 1.0, 1.0), "rows missing"),
-    ],
-)
-def test_tables_that_cannot_be(
-    frequency: tuple[float, ...], density: tuple[float, ...], words: str
-) -> None:
-    with pytest.raises(ow.InputError, match=words):
-        ow.TableSpectrum(frequency, density)
-
-
-@pytest.mark.parametrize(("low", "high"), [(0.5, 0.1), (0.0, 0.1), (0.1, np.inf)])
-def test_noise_that_cannot_be(low: float, high: float) -> None:
-    with pytest.raises(ow.InputError, match="waves, field"):
-        ow.WhiteNoise(2.0, low, high)

@@ -16,10 +16,10 @@ from offwind_pin.loads.soil.curves.shaft_and_tip import (
     torsional_curves,
     vertical_curves,
 )
-from offwind_pin.loads.soil.soil_profile import Ground
+from offwind_pin.loads.soil.soil_profile import PileNodes
 
 DIAMETER = 6.0
-NODES = Ground(np.array([2.0, 10.0]), np.full(2, DIAMETER), 30.0)
+NODES = PileNodes(np.array([2.0, 10.0]), np.full(2, DIAMETER), 30.0)
 FRICTION = {"depth_m": [0, 20], "values": [10e3, 90e3]}
 F = np.array([18e3, 50e3])
 """Unit skin friction at the two nodes."""
@@ -130,7 +130,7 @@ def test_lines_and_tanh(make: Any, key: str, linear: Any, tanh: Any) -> None:
     """k x and u tanh(k x / u)."""
     straight = make(springs(**{key: {"kind": "linear", **linear}}), NODES)
     bent = make(springs(**{key: {"kind": "tanh", **tanh}}), NODES)
-    x = np.full(len(straight.numbers), 0.2)
+    x = np.full(len(straight), 0.2)
     assert_allclose(straight.resistance(x), 8e5)
     assert_allclose(bent.resistance(x), 5e5 * math.tanh(1.6), rtol=1e-12)
 
@@ -153,5 +153,5 @@ def test_tables(make: Any, key: str, text: str, tmp_path: Path) -> None:
     path = tmp_path / "curves.csv"
     path.write_text(text)
     curves = make(springs(**{key: {"kind": "table", "file": path}}), NODES)
-    found = curves.resistance(np.full(len(curves.numbers), 0.01))
+    found = curves.resistance(np.full(len(curves), 0.01))
     assert_allclose(found, [1e5] if key == "toe_bearing" else [1.2e5, 2e5])

@@ -11,19 +11,13 @@ from numpy.testing import assert_allclose
 
 from offwind_pin.base.errors import InputError
 from offwind_pin.loads.soil.curves.laws import (
-    SoilCurves,
-    conic_curves,
-    curve_at,
-    curve_energy,
-    linear_curves,
-    point_curves,
-    power_curves,
-    secant_at,
-    stack_curves,
-    tabulated_curve,
-    tabulated_curves,
-    tanh_curves,
+    ConicCurves,
+    LinearCurves,
+    PowerCurves,
+    TanhCurves,
 )
+from offwind_pin.loads.soil.curves.soil_curve import SoilCurve, stack_curves
+from offwind_pin.loads.soil.curves.tabulated import tabulated_curve, tabulated_curves
 
 MODULUS = np.array([0.0, 2e7, 9e8])
 ULTIMATE = np.array([0.0, 1e6, 4e7])
@@ -46,19 +40,21 @@ def table(tmp_path: Path) -> Path:
     return path
 
 
-def make(kind: str, table: Path) -> SoilCurves:
+def make(kind: str, table: Path) -> SoilCurve:
     """Three nodes of each kind of curve."""
     if kind == "linear":
-        return linear_curves(MODULUS)
+        return LinearCurves(MODULUS)
     if kind == "tanh":
-        return tanh_curves(MODULUS, ULTIMATE)
+        return TanhCurves(MODULUS, ULTIMATE)
     if kind == "power":
-        return power_curves(ULTIMATE, np.array([0.2, 0.05, 0.01]), 0.25, np.full(3, 1e-4))
+        return PowerCurves(
+            ULTIMATE, np.array([0.2, 0.05, 0.01]), np.full(3, 0.25), np.full(3, 1e-4)
+        )
     if kind == "conic":
         ratio, curvature = np.array([3.0, 300.0, 40.0]), np.array([0.8, 0.94, 0.1])
-        return conic_curves(np.array([0.2, 0.5, 0.05]), ULTIMATE, ratio, curvature)
+        return ConicCurves(np.array([0.2, 0.5, 0.05]), ULTIMATE, ratio, curvature)
     if kind == "bilinear":
-        return conic_curves(np.full(3, 0.5), ULTIMATE, np.full(3, 25.0), np.zeros(3))
+        return ConicCurves(np.full(3, 0.5), ULTIMATE, np.full(3, 25.0), np.zeros(3))
     return tabulated_curves(table, np.array([0.0, 5.0, 10.0]))
 
 
@@ -106,18 +102,17 @@ def test_energy_is_the_integral_of_the_resistance(kind: str, y: float, table: Pa
         for x, weight in zip((1 + points) / 2, weights / 2, strict=True):
             p = curves.resistance(np.full(3, low + x * (high - low)))
             expected += weight * (high - low) * p
-    found = [curve_energy(numbers, y) for numbers in curves.numbers]
-    assert_allclose(found, expected, rtol=1e-10, atol=1e-40)
+    assert_allclose(curves.energy(np.full(3, y)), expected, rtol=1e-10, atol=1e-40)
 
 
 def test_linear_numbers() -> None:
     """p = k y."""
-    assert_allclose(linear_curves(MODULUS).resistance(np.full(3, 0.01)), MODULUS * 0.01)
+    assert_allclose(LinearCurves(MODULUS).resistance(np.full(3, 0.01)), MODULUS * 0.01)
 
 
 def test_tanh_plateau() -> None:
     """Far out p is the ultimate resistance, and the tangent has gone, without overflow."""
-    curves, far = tanh_curves(MODULUS, ULTIMATE), np.full(3, 100.0)
+    curves, far = TanhCurves(MODULUS, ULTIMATE), np.full(3, 100.0)
     assert_allclose(curves.resistance(far), ULTIMATE, rtol=1e-12)
     assert np.all(curves.tangent(far) < 1e-200)
 
@@ -126,7 +121,7 @@ def test_tanh_plateau() -> None:
 @given(st.floats(0.0, 10.0), st.floats(0.0, 10.0))
 def test_tanh_softens(y: float, more: float) -> None:
     """The secant falls with displacement and lies between tangent and initial modulus."""
-    curves = tanh_curves(MODULUS, ULTIMATE)
+    curves = TanhCurves(MODULUS, ULTIMATE)
     here, further = np.full(3, y), np.full(3, y + more)
     slack = 1e-12 * MODULUS
     assert np.all(curves.secant(further) <= curves.secant(here) + slack)
@@ -206,7 +201,7 @@ def test_missing_table_is_refused(tmp_path: Path) -> None:
 
 def test_ground_without_strength_gives_nothing() -> None:
     """Where p_u is zero, resistance, secant and tangent are zero, whatever the modulus."""
-    curves = tanh_curves(np.array([1e7, 1e7]), np.array([0.0, 1e6]))
+    curves = TanhCurves(np.array([1e7, 1e7]), np.array([0.0, 1e6]))
     y = np.array([0.1, 0.1])
     assert curves.resistance(y)[0] == curves.secant(y)[0] == curves.tangent(y)[0] == 0
     assert curves.secant(y)[1] > 0
@@ -214,14 +209,14 @@ def test_ground_without_strength_gives_nothing() -> None:
 
 def test_ground_without_stiffness_gives_nothing() -> None:
     """Where the modulus is zero, as at the mudline of sand, neither force nor energy is there."""
-    (numbers,) = (curves := tanh_curves(np.zeros(1), np.array([1e6]))).numbers
+    curves = TanhCurves(np.zeros(1), np.array([1e6]))
     y = np.array([0.1])
-    assert curves.resistance(y)[0] == curves.tangent(y)[0] == curve_energy(numbers, 0.1) == 0
+    assert curves.resistance(y)[0] == curves.tangent(y)[0] == curves.energy(y)[0] == 0
 
 
 def test_power_numbers() -> None:
     """p_u (y / y_u)^n between the line from the origin and the plateau."""
-    curves = power_curves(np.full(3, 6e5), np.full(3, 0.4), 0.25, np.full(3, 1e-3))
+    curves = PowerCurves(*(np.full(3, v) for v in (6e5, 0.4, 0.25, 1e-3)))
     p = curves.resistance(np.array([5e-4, 0.025, 0.9]))
     assert_allclose(p, [6e5 * (1e-3 / 0.4) ** 0.25 / 2, 6e5 / 2, 6e5], rtol=1e-14)
     assert_allclose(curves.tangent(np.array([5e-4, 0.025, 0.9]))[1:], [3e5 / 0.1, 0], rtol=1e-14)
@@ -236,7 +231,7 @@ def test_power_numbers() -> None:
 def test_conic_lies_on_its_equation(n: float, ratio: float, x: float) -> None:
     """-n (Y - X)^2 + (1 - n) (Y - K X) (Y - 1) = 0, on the branch above the chord."""
     end, ultimate = 0.3, 7e5
-    curves = conic_curves(*(np.array([v]) for v in (end, ultimate, ratio, n)))
+    curves = ConicCurves(*(np.array([v]) for v in (end, ultimate, ratio, n)))
     y = curves.resistance(np.array([x * end]))[0] / ultimate
     if x >= 1:
         assert y == pytest.approx(1.0, rel=1e-14)
@@ -253,20 +248,20 @@ def test_conic_lies_on_its_equation(n: float, ratio: float, x: float) -> None:
 @pytest.mark.parametrize("ratio", [1.5, 20.0, 5000.0])
 def test_energy_of_sharp_and_round_conics(n: float, ratio: float) -> None:
     """Against the corrected rule of trapezoids on graded points, near the knee and beyond."""
-    numbers = conic_curves(*(np.array([v]) for v in (1.0, 1.0, ratio, n))).numbers[0]
+    curve = ConicCurves(*(np.array([v]) for v in (1.0, 1.0, ratio, n)))
     for y in (0.1 / ratio, 2 / ratio, 0.3, 0.999):
         grid = np.concatenate([[0.0], np.geomspace(y * 1e-6, y, 20000)])
-        curves = SoilCurves(np.tile(numbers, (len(grid), 1)))
+        curves = curve.at(np.zeros(len(grid), dtype=np.intp))
         p, slope = curves.resistance(grid), curves.tangent(grid)
         step = np.diff(grid)
         # with slopes at the ends of each step (Euler and Maclaurin) the error is of fourth order
         expected = np.sum((p[1:] + p[:-1]) / 2 * step - step**2 / 12 * np.diff(slope))
-        assert curve_energy(numbers, y) == pytest.approx(expected, rel=1e-8)
+        assert curve.energy(np.array([y]))[0] == pytest.approx(expected, rel=1e-8)
 
 
 def test_conic_without_curvature_bends_once() -> None:
     """The initial slope up to the plateau, which comes before y_u."""
-    curves = conic_curves(*(np.full(3, v) for v in (0.5, 4e6, 10.0, 0.0)))
+    curves = ConicCurves(*(np.full(3, v) for v in (0.5, 4e6, 10.0, 0.0)))
     y = np.array([0.04, 0.05, 0.3])
     assert_allclose(curves.resistance(y), [3.2e6, 4e6, 4e6], rtol=1e-14)
     assert_allclose(curves.tangent(y), [8e7, 0, 0], rtol=1e-14)
@@ -274,12 +269,12 @@ def test_conic_without_curvature_bends_once() -> None:
 
 def test_conic_along_its_chord_is_straight() -> None:
     """K = 1 leaves no room for a curve: the chord, whatever the curvature."""
-    curves = conic_curves(*(np.full(2, v) for v in (0.5, 4e6, 1.0, 0.7)))
+    curves = ConicCurves(*(np.full(2, v) for v in (0.5, 4e6, 1.0, 0.7)))
     assert_allclose(curves.resistance(np.array([0.2, 0.8])), [1.6e6, 4e6], rtol=1e-12)
-    assert curve_energy(curves.numbers[0], 0.2) == pytest.approx(1.6e5, rel=1e-12)
+    assert curves.energy(np.full(2, 0.2)) == pytest.approx([1.6e5, 1.6e5], rel=1e-12)
 
 
-def test_laws_stack_to_one_width(table: Path) -> None:
+def test_laws_stack(table: Path) -> None:
     """Each curve keeps its values, tangents and energies among others, wherever it goes."""
     parts = [make(kind, table) for kind in KINDS]
     places = np.random.default_rng(3).permutation(3 * len(KINDS)).reshape(len(KINDS), 3)
@@ -289,8 +284,7 @@ def test_laws_stack_to_one_width(table: Path) -> None:
         for where, part in zip(places, parts, strict=True):
             assert_allclose(stacked.secant(at)[where], part.secant(at[:3]), rtol=1e-15)
             assert_allclose(stacked.tangent(at)[where], part.tangent(at[:3]), rtol=1e-15)
-            energies = [curve_energy(row, y) for row in part.numbers]
-            assert_allclose([curve_energy(stacked.numbers[i], y) for i in where], energies)
+            assert_allclose(stacked.energy(at)[where], part.energy(at[:3]), rtol=1e-15)
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -339,27 +333,21 @@ def test_table_of_one_curve(tmp_path: Path) -> None:
     path = tmp_path / "toe.csv"
     path.write_text("z_m,q_n\n0.01,2e6\n0.1,5e6\n")
     curve = tabulated_curve(path, ("z_m", "q_n"))
-    assert curve_at(curve.numbers[0], 0.0)[0] == pytest.approx(2e8)
+    assert curve.secant(np.zeros(1))[0] == pytest.approx(2e8)
     assert curve.ultimate.tolist() == [5e6]
     path.write_text("z_m,q_n\n0.1,2e6\n0.01,5e6\n")
     with pytest.raises(InputError, match="z_m"):
         tabulated_curve(path, ("z_m", "q_n"))
 
 
-def test_secant_alone_is_the_secant_of_the_curve() -> None:
-    """The quicker function for forces gives what the one with the tangent gives, for every law."""
-    curves = [
-        linear_curves(np.array([2e8])),
-        tanh_curves(np.array([2e8]), np.array([4e6])),
-        point_curves(np.array([[0.0, 0.01, 0.1]]), np.array([[0.0, 1e6, 3e6]])),
-        power_curves(np.array([3e6]), np.array([0.5]), 0.25, np.array([0.003])),
-        *(
-            conic_curves(np.array([1.7]), np.array([4e6]), np.array([340.0]), np.array([n]))
-            for n in (0.0, 0.3, 0.72, 0.94)
-        ),
-        conic_curves(np.array([1.7]), np.array([0.0]), np.array([340.0]), np.array([0.5])),
-    ]
-    for curve in curves:
-        row = np.ascontiguousarray(curve.numbers[0])
-        for y in (0.0, 1e-9, 1e-4, 0.005, 0.02, 0.3, 1.699, 1.7, 5.0):
-            assert secant_at(row, y) == pytest.approx(curve_at(row, y)[0], rel=1e-15)
+def test_like_laws_are_one_group(table: Path) -> None:
+    """Layers of one law are evaluated together; parts of a mixture keep their curves and order."""
+    one, other = make("tanh", table), make("linear", table)
+    stacked = stack_curves(
+        [(np.arange(3), one), (np.arange(3, 6), other), (np.arange(6, 9), make("tanh", table))]
+    )
+    assert [type(law) for _, law in stacked.groups] == [TanhCurves, LinearCurves]
+    chosen = np.array([7, 4, 1, 8])
+    y = np.full(9, 0.02)
+    assert_allclose(stacked.at(chosen).secant(y[:4]), stacked.secant(y)[chosen], rtol=1e-15)
+    assert type(stacked.at(np.array([0, 7]))) is TanhCurves

@@ -12,14 +12,14 @@ from scipy.optimize import brentq
 
 from offwind_pin.base.errors import InputError
 from offwind_pin.definitions.soil.layers import LayeredGround
-from offwind_pin.loads.soil.curves.laws import SoilCurves
 from offwind_pin.loads.soil.curves.layered import (
     base_moment_curve,
     base_shear_curve,
     lateral_curves,
     rocking_curves,
 )
-from offwind_pin.loads.soil.soil_profile import Ground
+from offwind_pin.loads.soil.curves.soil_curve import SoilCurves
+from offwind_pin.loads.soil.soil_profile import PileNodes
 
 DIAMETER, LENGTH = 8.0, 32.0
 DEPTHS = [0.0, 1.5, 7.0, 20.0, 32.0]
@@ -34,9 +34,9 @@ def ground(loading: str, **layer: Any) -> LayeredGround:
     return LayeredGround.model_validate({"kind": "layers", "loading": loading, "layers": [layer]})
 
 
-def at(depth: float, scour: float = 0.0) -> Ground:
+def at(depth: float, scour: float = 0.0) -> PileNodes:
     """One node."""
-    return Ground(np.array([depth]), np.array([DIAMETER]), LENGTH, scour)
+    return PileNodes(np.array([depth]), np.array([DIAMETER]), LENGTH, scour)
 
 
 def value(curves: SoilCurves | None, y: float) -> float:
@@ -242,8 +242,9 @@ def test_pisa(name: str, depth: float) -> None:
     parameters, layer = PUBLISHED[name]
     sand = name == "general_dunkirk_sand"
     curve, node = ground("static", model="pisa", calibration=name, **layer), at(depth)
-    rocking = rocking_curves(curve, node)
-    assert rocking is not None
+    found = rocking_curves(curve, node)
+    assert found is not None
+    _, rocking = found
     assert rocking.by_lateral[0] == sand
     strength = WEIGHT * depth if sand else 110e3
     toe = WEIGHT * LENGTH if sand else 110e3
@@ -269,8 +270,9 @@ def test_pisa_sand_at_the_mudline_gives_nothing() -> None:
     """No stress, no resistance, neither lateral nor rocking, and no NaN."""
     layer = PUBLISHED["general_dunkirk_sand"][1]
     curve = ground("static", model="pisa", calibration="general_dunkirk_sand", **layer)
-    rocking = rocking_curves(curve, at(0.0))
-    assert rocking is not None
+    found = rocking_curves(curve, at(0.0))
+    assert found is not None
+    _, rocking = found
     for curves in (lateral_curves(curve, at(0.0)), rocking.curves):
         assert value(curves, 0.1) == slope(curves) == curves.ultimate[0] == 0.0
 
@@ -307,7 +309,7 @@ def test_pisa_with_parameters_of_ones_own() -> None:
 def test_pisa_far_outside_its_calibration_is_refused() -> None:
     """At L/D = 8 the stiffness of Cowden till is negative at the toe: told with the reaction."""
     curve = ground("static", model="pisa", calibration="cowden_till", **CLAY)
-    node = Ground(np.array([60.0]), np.array([DIAMETER]), 64.0)
+    node = PileNodes(np.array([60.0]), np.array([DIAMETER]), 64.0)
     with pytest.raises(InputError, match=r"reaction lateral.*z/D = 7.5"):
         lateral_curves(curve, node)
     with pytest.raises(InputError, match="base_shear"):

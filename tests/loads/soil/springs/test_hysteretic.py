@@ -11,14 +11,19 @@ import offwind_pin as ow
 from offwind_pin.base.definition import Array
 from offwind_pin.loads.point_load import PointMotion
 from offwind_pin.loads.soil.curves.laws import (
-    SoilCurves,
-    linear_curves,
-    point_curves,
-    power_curves,
-    tanh_curves,
+    LinearCurves,
+    PolygonCurves,
+    PowerCurves,
+    TanhCurves,
 )
 from offwind_pin.loads.soil.springs.dashpot import NO_DASHPOT, Dashpot
-from offwind_pin.loads.soil.springs.elastic import LATERAL, ROCKING, TORSIONAL, VERTICAL, Direction
+from offwind_pin.loads.soil.springs.elastic import (
+    LATERAL,
+    ROCKING,
+    TORSIONAL,
+    VERTICAL,
+    SpringComponent,
+)
 from offwind_pin.loads.soil.springs.hysteretic import HystereticSprings, sliders_of
 
 MODULUS, ULTIMATE, LENGTH = 2e8, 4e6, 0.75
@@ -26,16 +31,16 @@ BEND = ULTIMATE / MODULUS
 """Where the initial stiffness would reach the ultimate resistance, in m."""
 
 
-def tanh() -> SoilCurves:
-    return tanh_curves(np.array([MODULUS]), np.array([ULTIMATE]))
+def tanh() -> TanhCurves:
+    return TanhCurves(np.array([MODULUS]), np.array([ULTIMATE]))
 
 
 def springs(
-    sliders: int = 40, direction: Direction = LATERAL, dashpot: Dashpot = NO_DASHPOT
+    sliders: int = 40, component: SpringComponent = LATERAL, dashpot: Dashpot = NO_DASHPOT
 ) -> HystereticSprings:
     """One node on a tanh curve."""
     place = np.array([-40.0]), np.array([LENGTH])
-    return HystereticSprings("soil", direction, *place, tanh(), dashpot, sliders)
+    return HystereticSprings("soil", component, *place, tanh(), dashpot, sliders)
 
 
 def at(x: float, y: float = 0.0) -> PointMotion:
@@ -189,27 +194,28 @@ def test_turning_the_path_turns_the_pull(angle: float, x: float, y: float) -> No
     assert again == pytest.approx(heat, rel=1e-9)
 
 
-@pytest.mark.parametrize("direction", [VERTICAL, ROCKING, TORSIONAL])
-def test_other_directions_slide_alike(direction: Direction) -> None:
+@pytest.mark.parametrize("component", [VERTICAL, ROCKING, TORSIONAL])
+def test_other_directions_slide_alike(component: SpringComponent) -> None:
     """The same path of another deflection gives the same pull and heat."""
-    load, lateral = springs(direction=direction), springs()
+    load, lateral = springs(component=component), springs()
+    (part,) = load.compiled()
     memory, reference = np.zeros(load.memory_size), np.zeros(lateral.memory_size)
     for size in BEND * np.array([0.5, 1.5, -1.0, 2.0]):
         columns = np.zeros((1, 21))
-        columns[0, direction.deflection] = size
+        columns[0, component.deflection] = size
         force = np.zeros((1, 6))
-        load.force_kernel(columns, load.constants, np.zeros(0), memory, force)
+        part.force_kernel(columns, part.constants, np.zeros(0), memory, force)
         expected = lateral.forces(0.0, at(size), 1.0, reference).force[0, 0]
-        assert force[0, direction.force] == pytest.approx(expected, rel=1e-12)
+        assert force[0, component.force] == pytest.approx(expected, rel=1e-12)
         assert np.count_nonzero(force) == 1
-        heat = load.commit_kernel(columns, load.constants, np.zeros(0), memory)
+        heat = part.commit_kernel(columns, part.constants, np.zeros(0), memory)
         assert heat == pytest.approx(lateral.commit(at(size), reference), rel=1e-12, abs=1e-12)
 
 
 def test_a_linear_curve_is_elastic() -> None:
     """It becomes one spring that never yields."""
     load = HystereticSprings(
-        "soil", LATERAL, np.zeros(1), np.ones(1), linear_curves(np.array([MODULUS])), NO_DASHPOT, 8
+        "soil", LATERAL, np.zeros(1), np.ones(1), LinearCurves(np.array([MODULUS])), NO_DASHPOT, 8
     )
     pulls, heat = trace(load, along_x(0, 0.5, -0.5, steps=5), np.zeros(load.memory_size))
     assert pulls[:, 0] == pytest.approx(MODULUS * along_x(0, 0.5, -0.5, steps=5)[:, 0], rel=1e-12)
@@ -218,14 +224,14 @@ def test_a_linear_curve_is_elastic() -> None:
 
 def test_nothing_slides_where_nothing_resists() -> None:
     """A curve of no resistance, as sand has at the mudline, gives none."""
-    nothing = tanh_curves(np.zeros(1), np.zeros(1))
+    nothing = TanhCurves(np.zeros(1), np.zeros(1))
     load = HystereticSprings("soil", LATERAL, np.zeros(1), np.ones(1), nothing, NO_DASHPOT, 8)
     assert np.all(load.forces(0.0, at(0.1), 1.0).force == 0)
 
 
 def test_power_curves_slide() -> None:
     """A curve that is steep at first is met at its sliders too."""
-    curve = power_curves(np.array([3e6]), np.array([0.5]), 0.25, np.array([0.003]))
+    curve = PowerCurves(*(np.array([v]) for v in (3e6, 0.5, 0.25, 0.003)))
     stiffness, limit = sliders_of(curve, 30)
     assert np.all(stiffness >= 0)
     y = limit[0, 10]
@@ -240,4 +246,4 @@ def test_curves_that_fall_or_stiffen_are_refused(p: tuple[float, ...]) -> None:
     """Parallel sliders cannot follow them; the message says what else to do."""
     y = np.array([[0.0, 0.01, 0.05, 0.2]])
     with pytest.raises(ow.InputError, match=r"never fall.*dashpot"):
-        sliders_of(point_curves(y, np.array([p])), 20)
+        sliders_of(PolygonCurves(y, np.array([p])), 20)

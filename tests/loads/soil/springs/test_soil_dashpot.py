@@ -8,7 +8,8 @@ import pytest
 import offwind_pin as ow
 from offwind_pin.definitions.soil.springs import SoilDashpot
 from offwind_pin.loads.point_load import PointMotion
-from offwind_pin.loads.soil.curves.laws import SoilCurves, linear_curves, tanh_curves
+from offwind_pin.loads.soil.curves.laws import LinearCurves, TanhCurves
+from offwind_pin.loads.soil.curves.soil_curve import SoilCurves
 from offwind_pin.loads.soil.springs.dashpot import NO_DASHPOT, Dashpot
 from offwind_pin.loads.soil.springs.elastic import LATERAL, SoilSprings
 
@@ -41,14 +42,14 @@ def dissipated(
 
 def test_cycle_along_a_line() -> None:
     """At f_load a linear spring's dashpot takes 2 pi beta K y^2, the equivalent viscous ratio beta."""
-    energy = dissipated(linear_curves(MODULUS), 0.02, 0.0, FREQUENCY)
+    energy = dissipated(LinearCurves(MODULUS), 0.02, 0.0, FREQUENCY)
     stiffness = MODULUS[0] * LENGTH
     assert energy == pytest.approx(2 * np.pi * FACTOR * stiffness * 0.02**2, rel=1e-10)
 
 
 def test_cycle_on_a_circle() -> None:
     """On a circle the secant of a tanh curve is constant, and two directions take their share."""
-    curves = tanh_curves(MODULUS, ULTIMATE)
+    curves = TanhCurves(MODULUS, ULTIMATE)
     energy = dissipated(curves, 0.02, 0.02, FREQUENCY)
     secant = curves.secant(np.array([0.02]))[0] * LENGTH
     assert secant < 0.9 * MODULUS[0] * LENGTH
@@ -57,7 +58,7 @@ def test_cycle_on_a_circle() -> None:
 
 def test_initial_dashpot_does_not_soften() -> None:
     """With the initial stiffness the dashpot of a softened spring takes what it took unsoftened."""
-    curves = tanh_curves(MODULUS, ULTIMATE)
+    curves = TanhCurves(MODULUS, ULTIMATE)
     energy = dissipated(curves, 0.02, 0.02, FREQUENCY, initial=True)
     stiffness = MODULUS[0] * LENGTH
     assert energy == pytest.approx(2 * 2 * np.pi * FACTOR * stiffness * 0.02**2, rel=1e-10)
@@ -82,7 +83,7 @@ def test_kind_of_dashpot_is_read_from_the_turbine(
 
 def test_dissipation_is_viscous() -> None:
     """The dashpot is viscous: twice the frequency takes twice the energy in a cycle."""
-    curves = linear_curves(MODULUS)
+    curves = LinearCurves(MODULUS)
     slow, fast = (dissipated(curves, 0.01, 0.0, f) for f in (FREQUENCY, 2 * FREQUENCY))
     assert fast / slow == pytest.approx(2.0, rel=1e-10)
 
@@ -90,7 +91,7 @@ def test_dissipation_is_viscous() -> None:
 def test_no_dashpot_takes_nothing() -> None:
     """Without a dashpot the springs are elastic."""
     assert Dashpot.of(None) is NO_DASHPOT
-    soil = SoilSprings("soil", LATERAL, np.zeros(1), np.ones(1), linear_curves(MODULUS), NO_DASHPOT)
+    soil = SoilSprings("soil", LATERAL, np.zeros(1), np.ones(1), LinearCurves(MODULUS), NO_DASHPOT)
     u, v = np.array([[0.02, 0.0, 0.0]]), np.array([[0.3, 0.1, 0.0]])
     still = soil.forces(0.0, PointMotion(u, u, 0 * v, np.array([[0.0, 0.0, 1.0]])), 1.0)
     moving = soil.forces(0.0, PointMotion(u, u, v, np.array([[0.0, 0.0, 1.0]])), 1.0)

@@ -8,7 +8,6 @@ import numpy as np
 
 from offwind_pin.base.definition import Array
 from offwind_pin.definitions.soil.springs import DistributedSprings, Hysteresis, SoilDashpot
-from offwind_pin.loads.soil.curves.laws import SoilCurves
 from offwind_pin.loads.soil.springs.dashpot import NO_DASHPOT, Dashpot
 from offwind_pin.loads.soil.springs.elastic import SoilSprings
 from offwind_pin.loads.soil.springs.hysteretic import HystereticSprings
@@ -28,8 +27,9 @@ def damping_models(
     springs: DistributedSprings, soil: SoilSprings, node: int
 ) -> dict[str, SoilSprings]:
     """One lateral spring by model: the turbine's own, and what others make of its numbers."""
-    curves = SoilCurves(soil.curves.numbers[[node]])
-    parts = (soil.name, soil.direction, soil.height[[node]], soil.tributary_length[[node]], curves)
+    at = np.array([node])
+    curves = soil.curves.at(at)
+    parts = (soil.name, soil.component, soil.height[at], soil.tributary_length[at], curves)
     models: dict[str, SoilSprings] = {}
     dashpot = springs.dashpot
     if dashpot is not None:

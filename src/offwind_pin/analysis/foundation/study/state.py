@@ -13,10 +13,9 @@ from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError
 from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.dynamics.system import System
-from offwind_pin.loads.soil.curves.laws import SoilCurves
+from offwind_pin.loads.soil.curves.soil_curve import SoilCurves
 from offwind_pin.loads.soil.springs.elastic import LATERAL, SoilSprings
 from offwind_pin.results.reading import analysed
-from offwind_pin.structure.urdf import definition_hash
 
 _SAME_HEIGHT = 1e-6
 """Difference in m."""
@@ -76,7 +75,7 @@ def reached_in_run(turbine: Turbine, soil: SoilSprings, directory: Path) -> Arra
             raise InputError(
                 where, f"a result of turbine {name}", turbine.name, "Give a result of this turbine."
             )
-        if made_of != definition_hash(turbine):
+        if made_of != turbine.content_hash:
             allowed = "one of the definition as it is now"
             raise InputError(where, f"a result of another {name}", allowed, "Run the case again.")
         if float(histories.height.min()) > float(soil.height.min()) + _SAME_HEIGHT:
@@ -95,7 +94,7 @@ def reached_in_run(turbine: Turbine, soil: SoilSprings, directory: Path) -> Arra
 def reached_statically(system: System, soil: SoilSprings, state: StaticResult) -> Array:
     """(n,) lateral displacement of each node in a static state, of the chain's own axis, in m."""
     rest = np.zeros(system.nv)
-    motion = system.equations([], ramp_time=np.inf).chain_motion(state.q, rest)
+    motion = system.equations([], ramp_time=None).chain_motion(state.q, rest)
     return np.asarray(np.hypot(*motion.points_at(soil.height).displacement[:, :2].T))
 
 
@@ -127,7 +126,7 @@ def soil_springs(system: System) -> SoilSprings | None:
         (
             load
             for load in system.foundation.soil
-            if isinstance(load, SoilSprings) and load.direction == LATERAL and len(load.height) > 1
+            if isinstance(load, SoilSprings) and load.component == LATERAL and len(load.height) > 1
         ),
         None,
     )

@@ -48,11 +48,10 @@ from offwind_pin.definitions.soil.springs import DistributedSprings
 from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.loads.soil.foundation import Foundation, distributed_springs
 from offwind_pin.loads.soil.macro_element import MacroElement
-from offwind_pin.loads.soil.soil_profile import Ground, layer_index
+from offwind_pin.loads.soil.soil_profile import PileNodes, layer_index
 from offwind_pin.loads.soil.springs.elastic import SoilSprings
 from offwind_pin.loads.soil.springs.frictional_moment import FrictionalMoment
 from offwind_pin.structure.section import outer_diameter
-from offwind_pin.structure.urdf import definition_hash
 
 Made = TypeVar("Made")
 
@@ -197,7 +196,7 @@ class SoilOverview:
         springs, push = self.springs, self.pushover
         return {
             "turbine": self.turbine.name,
-            "definition_sha256": definition_hash(self.turbine),
+            "definition_sha256": self.turbine.content_hash,
             "surrogate": self.foundation.surrogate,
             "cautions": list(self.foundation.cautions),
             "remarks": list(self.remarks),
@@ -372,9 +371,9 @@ def _models(
     """Name of the law at every node."""
     if not isinstance(springs.curve, LayeredGround):
         return (springs.curve.kind,) * len(depth)
-    ground = Ground(depth, diameter, float(depth[-1]), turbine.site.scour_depth)
+    nodes = PileNodes(depth, diameter, float(depth[-1]), turbine.site.scour_depth)
     layers = springs.curve.layers
-    return tuple(layers[i].model for i in layer_index(layers, ground))
+    return tuple(layers[i].model for i in layer_index(layers, nodes))
 
 
 _PUSHOVER = "pushover"

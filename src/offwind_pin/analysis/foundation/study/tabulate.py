@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from offwind_pin.loads.soil.curves.laws import TABLE, SoilCurves
-from offwind_pin.loads.soil.springs.elastic import ROCKING, TORSIONAL, SoilSprings
+from offwind_pin.loads.soil.curves.soil_curve import SoilCurves
+from offwind_pin.loads.soil.springs.elastic import SoilSprings
 from offwind_pin.loads.soil.springs.frictional_moment import FrictionalMoment
 
 OtherSprings = SoilSprings | FrictionalMoment
@@ -20,11 +20,11 @@ _AT_TOE = ("soil_base_shear", "soil_base_moment", "soil_bearing")
 
 def sampled(curves: SoilCurves, scale: float) -> list[list[tuple[float, float]]]:
     """Points of each curve; of a table its own, elsewhere so that chords stay close."""
-    rows = curves.numbers
-    tables = [row[2 : 2 + int(row[1])] for row in rows if row[0] == TABLE]
-    whole = len(tables) == len(rows)
-    grid = np.unique(np.concatenate([*tables, [] if whole else scale * _SAMPLED]))
-    resistance = np.array([curves.resistance(np.full(len(rows), y)) for y in grid])
+    corners = [law.corners for _, law in curves.groups]
+    bent = [points.ravel() for points in corners if points is not None]
+    straight = len(bent) == len(corners)
+    grid = np.unique(np.concatenate([*bent, [] if straight else scale * _SAMPLED]))
+    resistance = np.array([curves.resistance(np.full(len(curves), y)) for y in grid])
     return [list(zip(grid.tolist(), column.tolist(), strict=True)) for column in resistance.T]
 
 
@@ -32,7 +32,7 @@ def units_of(load: OtherSprings) -> tuple[bool, tuple[str, str]]:
     """Whether it resists rotation, and the units of deflection and resistance."""
     if isinstance(load, FrictionalMoment):
         return True, ("rad", "m")
-    turns = load.direction in (ROCKING, TORSIONAL)
+    turns = load.component.turns
     at_toe = load.name in _AT_TOE
     units = {
         (False, False): ("m", "N/m"),

@@ -8,64 +8,79 @@ from functools import cached_property
 import numpy as np
 
 from offwind_pin.base.definition import Array
-from offwind_pin.base.kernels import kernel
-from offwind_pin.loads.point_load import KernelLoad, energy_kernel, force_kernel, tangent_kernel
+from offwind_pin.base.kernels import inner
+from offwind_pin.loads.point_load import (
+    ACCELERATION,
+    AXIS,
+    BY_ACCELERATION,
+    BY_AXIS,
+    VELOCITY,
+    KernelLoad,
+    energy_kernel,
+    force_kernel,
+    tangent_kernel,
+)
 from offwind_pin.loads.sea.forces.strips import Strips, Water, wet_share
 
+_MASS, _BOTTOM, _LENGTH = range(3)
+"""Columns of a strip's constants: mass in kg; where the surface moves, its ends in m as well."""
+_SURFACE = 0
+"""Height of the surface among the time inputs."""
 
-@kernel
+
+@inner
 def along(a: Array, b: Array) -> float:
     """Scalar product of two vectors in space."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
-@kernel
+@inner
 def _resist(motion: Array, mass: float, force: Array) -> None:
     """Set the force of a mass that an acceleration across the axis moves, at one point."""
-    axis, acceleration = motion[9:12], motion[12:15]
+    axis, acceleration = motion[AXIS], motion[ACCELERATION]
     slide = along(axis, acceleration)
     for j in range(3):
         force[j] = -mass * (acceleration[j] - slide * axis[j])
         force[3 + j] = 0.0
 
 
-@kernel
+@inner
 def _resist_tangents(motion: Array, mass: float, blocks: Array) -> None:
     """Set its derivatives by acceleration and axis."""
-    axis, acceleration = motion[9:12], motion[12:15]
+    axis, acceleration = motion[AXIS], motion[ACCELERATION]
     slide = along(axis, acceleration)
     for j in range(3):
         for k in range(3):
-            blocks[2, j, k] = mass * axis[j] * axis[k]
-            blocks[3, j, k] = mass * axis[j] * acceleration[k]
-        blocks[2, j, j] -= mass
-        blocks[3, j, j] += mass * slide
+            blocks[BY_ACCELERATION, j, k] = mass * axis[j] * axis[k]
+            blocks[BY_AXIS, j, k] = mass * axis[j] * acceleration[k]
+        blocks[BY_ACCELERATION, j, j] -= mass
+        blocks[BY_AXIS, j, j] += mass * slide
 
 
 @force_kernel
 def _added_mass_forces(
-    motion: Array, constants: Array, row: Array, memory: Array, force: Array
+    motion: Array, constants: Array, time_inputs: Array, memory: Array, force: Array
 ) -> float:
     for i in range(len(motion)):
-        _resist(motion[i], constants[i, 0], force[i])
+        _resist(motion[i], constants[i, _MASS], force[i])
     return 0.0
 
 
 @tangent_kernel
 def _added_mass_tangents(
-    motion: Array, constants: Array, row: Array, memory: Array, blocks: Array
+    motion: Array, constants: Array, time_inputs: Array, memory: Array, blocks: Array
 ) -> None:
     for i in range(len(motion)):
-        _resist_tangents(motion[i], constants[i, 0], blocks[i])
+        _resist_tangents(motion[i], constants[i, _MASS], blocks[i])
 
 
 @energy_kernel
 def _added_mass_energy(motion: Array, constants: Array, memory: Array) -> float:
     energy = 0.0
     for i in range(len(motion)):
-        axis, velocity = motion[i, 9:12], motion[i, 6:9]
+        axis, velocity = motion[i, AXIS], motion[i, VELOCITY]
         square = along(velocity, velocity) - along(velocity, axis) ** 2
-        energy += constants[i, 0] * square / 2
+        energy += constants[i, _MASS] * square / 2
     return energy
 
 
@@ -100,21 +115,21 @@ class AddedMass(KernelLoad):
 
 @force_kernel
 def _splash_forces(
-    motion: Array, constants: Array, row: Array, memory: Array, force: Array
+    motion: Array, constants: Array, time_inputs: Array, memory: Array, force: Array
 ) -> float:
     for i in range(len(motion)):
-        share = wet_share(row[0], constants[i, 1], constants[i, 2])
-        _resist(motion[i], share * constants[i, 0], force[i])
+        share = wet_share(time_inputs[_SURFACE], constants[i, _BOTTOM], constants[i, _LENGTH])
+        _resist(motion[i], share * constants[i, _MASS], force[i])
     return 0.0
 
 
 @tangent_kernel
 def _splash_tangents(
-    motion: Array, constants: Array, row: Array, memory: Array, blocks: Array
+    motion: Array, constants: Array, time_inputs: Array, memory: Array, blocks: Array
 ) -> None:
     for i in range(len(motion)):
-        share = wet_share(row[0], constants[i, 1], constants[i, 2])
-        _resist_tangents(motion[i], share * constants[i, 0], blocks[i])
+        share = wet_share(time_inputs[_SURFACE], constants[i, _BOTTOM], constants[i, _LENGTH])
+        _resist_tangents(motion[i], share * constants[i, _MASS], blocks[i])
 
 
 @dataclass(frozen=True, eq=False)
@@ -144,6 +159,6 @@ class SplashAddedMass(KernelLoad):
     def constants(self) -> Array:
         return np.column_stack([self.mass, self.strips.ends])
 
-    def rows(self, time: Array, rise: Array) -> Array:
+    def time_inputs(self, time: Array, ramp_factor: Array) -> Array:
         """(t, 1) height of the surface in m."""
-        return self.water.surface(time, rise)[:, None]
+        return self.water.surface(time, ramp_factor)[:, None]

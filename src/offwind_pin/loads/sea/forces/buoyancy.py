@@ -8,21 +8,23 @@ from functools import cached_property
 import numpy as np
 
 from offwind_pin.base.definition import Array
-from offwind_pin.loads.point_load import KernelLoad, force_kernel, tangent_kernel
+from offwind_pin.loads.point_load import AXIS, BY_AXIS, KernelLoad, force_kernel, tangent_kernel
 from offwind_pin.loads.sea.forces.strips import Strips, Water, wet_share
 
 _LIFT, _BOTTOM, _LENGTH, _STILL, _CAP = range(5)
 """Columns of a point's constants: rho g V in N, the strip's ends in m and its wet share in still
 water; of the end of the wetted part p A in N."""
+_SURFACE = 0
+"""Height of the surface among the time inputs."""
 
 
 @force_kernel
 def _pressure_forces(
-    motion: Array, constants: Array, row: Array, memory: Array, force: Array
+    motion: Array, constants: Array, time_inputs: Array, memory: Array, force: Array
 ) -> float:
     for i in range(len(motion)):
-        axis, still = motion[i, 9:12], constants[i, _STILL]
-        share = wet_share(row[0], constants[i, _BOTTOM], constants[i, _LENGTH])
+        axis, still = motion[i, AXIS], constants[i, _STILL]
+        share = wet_share(time_inputs[_SURFACE], constants[i, _BOTTOM], constants[i, _LENGTH])
         across = constants[i, _LIFT] * (share - still)
         for j in range(3):
             force[i, j] = -(across * axis[2] + constants[i, _CAP]) * axis[j]
@@ -33,15 +35,15 @@ def _pressure_forces(
 
 @tangent_kernel
 def _pressure_tangents(
-    motion: Array, constants: Array, row: Array, memory: Array, blocks: Array
+    motion: Array, constants: Array, time_inputs: Array, memory: Array, blocks: Array
 ) -> None:
     for i in range(len(motion)):
-        axis = motion[i, 9:12]
-        share = wet_share(row[0], constants[i, _BOTTOM], constants[i, _LENGTH])
+        axis = motion[i, AXIS]
+        share = wet_share(time_inputs[_SURFACE], constants[i, _BOTTOM], constants[i, _LENGTH])
         across = constants[i, _LIFT] * (share - constants[i, _STILL])
         for j in range(3):
-            blocks[i, 3, j, 2] -= across * axis[j]
-            blocks[i, 3, j, j] -= across * axis[2] + constants[i, _CAP]
+            blocks[i, BY_AXIS, j, 2] -= across * axis[j]
+            blocks[i, BY_AXIS, j, j] -= across * axis[2] + constants[i, _CAP]
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +54,7 @@ class Buoyancy(KernelLoad):
     tapered member take, per length, rho g A z_hat + d(p A e)/ds: Archimedes' force less that on the
     two ends of a piece that are not wet. Summed up, it is rho g V z_hat on every strip and -p A e
     at the lower end. The term in between, d(p A e)/ds, does no work in the motion of a
-    chain whose axis keeps its length, so that nothing is lost by leaving it to the ends: it holds
+    chain whose axis keeps its length, so that it can be left to the ends: it has
     the pressure of a bend's outer side beside that of its inner side, and that on the annulus where
     the diameter jumps. What it changes is what a section's axial force means: that of the wall plus
     p A (the effective one).
@@ -103,8 +105,8 @@ class Buoyancy(KernelLoad):
         result[-1, _CAP] = self.weight * self.end_area * (self.level - self.height[-1])
         return result
 
-    def rows(self, time: Array, rise: Array) -> Array:
+    def time_inputs(self, time: Array, ramp_factor: Array) -> Array:
         """(t, 1) height of the surface in m."""
         if self.water is None:
             return np.full((len(time), 1), self.level)
-        return self.water.surface(time, rise)[:, None]
+        return self.water.surface(time, ramp_factor)[:, None]

@@ -8,63 +8,75 @@ from functools import cached_property
 import numpy as np
 
 from offwind_pin.base.definition import Array
-from offwind_pin.loads.point_load import KernelLoad, force_kernel, tangent_kernel
+from offwind_pin.loads.point_load import (
+    AXIS,
+    BY_AXIS,
+    BY_VELOCITY,
+    VELOCITY,
+    Channel,
+    KernelLoad,
+    force_kernel,
+    tangent_kernel,
+)
 from offwind_pin.loads.sea.forces.added_mass import along
 from offwind_pin.loads.sea.forces.strips import Strips, Water, wet_share
 
 _INERTIA, _DRAG, _BOTTOM, _LENGTH = range(4)
 """Columns of a strip's constants: rho (1 + Ca) V in kg, rho/2 Cd D l in kg/m, its ends in m."""
+_SURFACE, _FLUID = range(2)
+"""Among the time inputs: height of the surface, and where the velocities (n, 3) begin; the
+accelerations (n, 3) follow."""
+_V = VELOCITY.start
 
 
 @force_kernel
 def morison_forces(
-    motion: Array, constants: Array, row: Array, memory: Array, force: Array
+    motion: Array, constants: Array, time_inputs: Array, memory: Array, force: Array
 ) -> float:
     """Of strips in a fluid: water or, with nothing but drag, wind.
 
-    row (1 + 6 n) is the surface in m, velocity (n, 3) in m/s and acceleration (n, 3) in m/s2.
+    time_inputs (1 + 6 n) : surface in m, velocity (n, 3) in m/s, acceleration (n, 3) in m/s2
     """
     n = len(motion)
-    fluid = row[1:].reshape(2, n, 3)
     relative, accelerated = np.empty(3), np.empty(3)
-    lost = 0.0
+    power = 0.0
     for i in range(n):
-        axis = motion[i, 9:12]
+        axis = motion[i, AXIS]
         for j in range(3):
-            relative[j] = fluid[0, i, j] - motion[i, 6 + j]
-            accelerated[j] = fluid[1, i, j]
+            relative[j] = time_inputs[_FLUID + 3 * i + j] - motion[i, _V + j]
+            accelerated[j] = time_inputs[_FLUID + 3 * n + 3 * i + j]
         slip, slide = along(relative, axis), along(accelerated, axis)
         for j in range(3):
             relative[j] -= slip * axis[j]
             accelerated[j] -= slide * axis[j]
         speed = np.sqrt(along(relative, relative))
-        share = wet_share(row[0], constants[i, _BOTTOM], constants[i, _LENGTH])
-        inertia, braking = share * constants[i, _INERTIA], share * constants[i, _DRAG]
+        share = wet_share(time_inputs[_SURFACE], constants[i, _BOTTOM], constants[i, _LENGTH])
+        inertia, drag_factor = share * constants[i, _INERTIA], share * constants[i, _DRAG]
         for j in range(3):
-            drag = braking * speed * relative[j]
+            drag = drag_factor * speed * relative[j]
             force[i, j] = inertia * accelerated[j] + drag
             force[i, 3 + j] = 0.0
-        lost += braking * speed**3
-    return lost
+        power += drag_factor * speed**3
+    return power
 
 
 @tangent_kernel
 def morison_tangents(
-    motion: Array, constants: Array, row: Array, memory: Array, blocks: Array
+    motion: Array, constants: Array, time_inputs: Array, memory: Array, blocks: Array
 ) -> None:
     """d(|w| w)/dw = |w| I + w w' / |w|, and w = P (u_w - v) with P = I - e e' of the axis e."""
     n = len(motion)
-    fluid = row[1:].reshape(2, n, 3)
-    slip, w = np.empty(3), np.empty(3)
+    slip, w, accelerated = np.empty(3), np.empty(3), np.empty(3)
     by_w, projector = np.empty((3, 3)), np.empty((3, 3))
     for i in range(n):
-        axis = motion[i, 9:12]
-        share = wet_share(row[0], constants[i, _BOTTOM], constants[i, _LENGTH])
-        inertia, braking = share * constants[i, _INERTIA], share * constants[i, _DRAG]
+        axis = motion[i, AXIS]
+        share = wet_share(time_inputs[_SURFACE], constants[i, _BOTTOM], constants[i, _LENGTH])
+        inertia, drag_factor = share * constants[i, _INERTIA], share * constants[i, _DRAG]
         for j in range(3):
-            slip[j] = fluid[0, i, j] - motion[i, 6 + j]
+            slip[j] = time_inputs[_FLUID + 3 * i + j] - motion[i, _V + j]
+            accelerated[j] = time_inputs[_FLUID + 3 * n + 3 * i + j]
         slide = along(slip, axis)
-        pushed = along(fluid[1, i], axis)
+        pushed = along(accelerated, axis)
         for j in range(3):
             w[j] = slip[j] - slide * axis[j]
             for k in range(3):
@@ -73,20 +85,20 @@ def morison_tangents(
         for j in range(3):
             for k in range(3):
                 outer = w[j] * w[k] / speed if speed > 0 else 0.0
-                by_w[j, k] = braking * (outer + (speed if j == k else 0.0))
+                by_w[j, k] = drag_factor * (outer + (speed if j == k else 0.0))
         for j in range(3):
             for k in range(3):
                 for m in range(3):
                     turned = axis[m] * slip[k] + (slide if m == k else 0.0)
-                    blocks[i, 1, j, k] -= by_w[j, m] * projector[m, k]
-                    blocks[i, 3, j, k] -= by_w[j, m] * turned
-                turned = axis[j] * fluid[1, i, k] + (pushed if j == k else 0.0)
-                blocks[i, 3, j, k] -= inertia * turned
+                    blocks[i, BY_VELOCITY, j, k] -= by_w[j, m] * projector[m, k]
+                    blocks[i, BY_AXIS, j, k] -= by_w[j, m] * turned
+                turned = axis[j] * accelerated[k] + (pushed if j == k else 0.0)
+                blocks[i, BY_AXIS, j, k] -= inertia * turned
 
 
 @dataclass(frozen=True, eq=False)
 class MorisonForce(KernelLoad):
-    """Fluid inertia and drag of a wave on strips; the added mass stands in the mass matrix.
+    """Fluid inertia and drag of a wave on strips; the added mass is in the mass matrix.
 
     F = rho (1 + Ca) V a_w + rho/2 Cd D l |w| w per strip, with w the relative velocity and a_w the
     water's acceleration, both taken normal to the axis (Rahman et al., MECC 2025, Eq. 8). Both
@@ -114,6 +126,14 @@ class MorisonForce(KernelLoad):
         drag = 0.5 * self.density * self.drag_coefficient * area
         return np.column_stack([inertia, drag, self.strips.ends])
 
-    def rows(self, time: Array, rise: Array) -> Array:
+    def time_inputs(self, time: Array, ramp_factor: Array) -> Array:
         """(t, 1 + 6 n) surface, and velocity and acceleration of the water at the strips."""
-        return self.water.rows(time, rise)
+        return self.water.time_inputs(time, ramp_factor)
+
+    @property
+    def channels(self) -> tuple[Channel, ...]:
+        about = "surface elevation of the undisturbed wave at x = 0, about the mean water level"
+        return (Channel("wave_elevation", (), "m", about),)
+
+    def outputs(self, time: Array, ramp_factor: Array) -> dict[str, Array]:
+        return {"wave_elevation": self.water.elevation(time, ramp_factor)}

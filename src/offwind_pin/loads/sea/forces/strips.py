@@ -30,10 +30,13 @@ class Water(Protocol):
     def lowest_surface(self) -> float:
         """Height in m that the surface does not fall below; the highest one if it stays."""
 
-    def surface(self, time: Array, rise: Array) -> Array:
-        """(t,) height in m up to which strips are wet, at a rise of 0 the mean water level."""
+    def elevation(self, time: Array, ramp_factor: Array) -> Array:
+        """(t,) surface of the waves above the mean water level in m."""
 
-    def rows(self, time: Array, rise: Array) -> Array:
+    def surface(self, time: Array, ramp_factor: Array) -> Array:
+        """(t,) height in m up to which strips are wet; without waves the mean water level."""
+
+    def time_inputs(self, time: Array, ramp_factor: Array) -> Array:
         """(t, 1 + 6 n) surface in m, velocity (n, 3) in m/s and acceleration (n, 3) in m/s2."""
 
 

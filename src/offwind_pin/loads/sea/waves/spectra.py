@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
-import hashlib
-from abc import ABC, abstractmethod
-from dataclasses import dataclass
-from pathlib import Path
-from typing import Literal
+from abc import abstractmethod
+from functools import cached_property
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import numpy as np
+from pydantic import Field, model_validator
 
-from offwind_pin.base.definition import Array
+from offwind_pin.base.definition import Array, Definition, File, Number, Numbers, Positive, key
 from offwind_pin.base.errors import InputError
 from offwind_pin.base.number_tables import read_numbers
 from offwind_pin.loads.sea.waves.dispersion import wave_number
 
-PeakShape = float | Literal["iec"]
+SignificantHeight = Annotated[Positive, Field(le=30)]
+WavePeriod = Annotated[Positive, Field(ge=1, le=30)]
+WaveFrequency = Annotated[Positive, Field(le=5)]
+PeakShape = Annotated[Number, Field(ge=1, le=7)] | Literal["iec"]
 
 LOWEST_SHARE, HIGHEST_SHARE = 0.4, 5.0
 """Of the peak frequency, between which components are made: they hold 99.8 % of the variance, and
@@ -27,18 +29,22 @@ _EDGE = 1e-12
 """Relative; keeps a component that lies on the end of a band in spite of rounding."""
 
 
-class WaveSpectrum(ABC):
+class WaveSpectrum(Definition):
     """How the variance of the surface is spread over frequency.
 
     Attributes
     ----------
-    significant_height : in m, four times the root of its area
-    band : lowest and highest frequency in Hz of the components made of it
-    peak_period : in s, or None where there is no peak
+    significant_height : float, m, four times the root of its area
+    peak_period : float, s, or None where there is no peak
     """
 
-    significant_height: float
-    peak_period: float | None
+    if TYPE_CHECKING:  # fields of some spectra, properties of others
+
+        @property
+        def significant_height(self) -> float: ...
+
+        @property
+        def peak_period(self) -> float | None: ...
 
     @property
     @abstractmethod
@@ -55,35 +61,30 @@ class WaveSpectrum(ABC):
     @property
     @abstractmethod
     def in_words(self) -> str:
-        """As a reader is told of it."""
+        """Short description for reports."""
 
 
-@dataclass(frozen=True)
-class JonswapSpectrum(WaveSpectrum):
+class JonswapSpectrum(WaveSpectrum, kw_only=False):
     """JONSWAP's, with a peak shape of 1 that of Pierson and Moskowitz; see :func:`jonswap`.
 
-    significant_height in m, peak_period in s; peak_shape from 1 to 7, or ``"iec"`` for IEC's rule
+    Attributes
+    ----------
+    significant_height : float, m
+    peak_period : float, s
+    peak_shape : float from 1 to 7, or ``"iec"`` for IEC's rule
     """
 
-    significant_height: float
-    peak_period: float
+    kind: Literal["jonswap"] = Field(default="jonswap", kw_only=True)
+    significant_height: SignificantHeight = key("significant_height_m")
+    peak_period: WavePeriod = key("peak_period_s")
     peak_shape: PeakShape = 1.0
-
-    def __post_init__(self) -> None:
-        for name in ("significant_height", "peak_period"):
-            require_positive(f"waves, field {name}", getattr(self, name))
-        if self.peak_shape != "iec" and not (
-            isinstance(self.peak_shape, int | float) and 1 <= self.peak_shape <= 7
-        ):
-            allowed = "1 to 7, or iec"
-            raise InputError("waves, field peak_shape", self.peak_shape, allowed, "Correct it.")
 
     @property
     def shape(self) -> float:
         """The peak-shape factor as a number."""
         if self.peak_shape == "iec":
             return iec_peak_shape(self.significant_height, self.peak_period)
-        return float(self.peak_shape)
+        return self.peak_shape
 
     @property
     def band(self) -> tuple[float, float]:
@@ -99,15 +100,16 @@ class JonswapSpectrum(WaveSpectrum):
         return f"{kind} waves, Hs {self.significant_height:g} m, Tp {self.peak_period:g} s"
 
 
-@dataclass(frozen=True)
 class TmaSpectrum(JonswapSpectrum):
     """JONSWAP's times Kitaigorodskii's depth factor, at the height given.
 
     The factor takes variance away. The spectrum is raised again evenly, so that the significant
-    height is the one given, as that of a JONSWAP spectrum is: a state is told by the height
-    measured at the site. The peak period is that of the JONSWAP spectrum; the factor grows with
-    frequency, and the peak comes to lie a little above 1 / Tp.
+    height is the one given, as that of a JONSWAP spectrum is: a sea state is described by the
+    height measured at the site. The peak period is that of the JONSWAP spectrum; the factor grows
+    with frequency, and the peak lies a little above 1 / Tp.
     """
+
+    kind: Literal["tma"] = Field(default="tma", kw_only=True)  # type: ignore[assignment]
 
     def density(self, frequency: Array, depth: float, gravity: float) -> Array:
         node, weight = _panels(1 / self.peak_period)
@@ -123,24 +125,24 @@ class TmaSpectrum(JonswapSpectrum):
         return f"TMA waves (gamma {self.shape:.3g}), Hs {height:g} m, Tp {period:g} s"
 
 
-@dataclass(frozen=True)
-class WhiteNoise(WaveSpectrum):
+class WhiteNoise(WaveSpectrum, kw_only=False):
     """The same density between two frequencies in Hz, none beyond."""
 
-    significant_height: float
-    lowest: float
-    highest: float
+    kind: Literal["white_noise"] = Field(default="white_noise", kw_only=True)
+    significant_height: SignificantHeight = key("significant_height_m")
+    lowest: WaveFrequency = key("lowest_hz")
+    highest: WaveFrequency = key("highest_hz")
 
-    def __post_init__(self) -> None:
-        for name in ("significant_height", "lowest", "highest"):
-            require_positive(f"waves, field {name}", getattr(self, name))
+    @model_validator(mode="after")
+    def _has_width(self) -> WhiteNoise:
         if not self.lowest < self.highest:
-            received = f"{self.lowest:g} to {self.highest:g} Hz"
-            allowed = "a lower and a higher frequency"
-            raise InputError("waves, fields lowest and highest", received, allowed, "Exchange.")
+            raise ValueError(
+                f"the band runs from {self.lowest:g} to {self.highest:g} Hz; exchange them"
+            )
+        return self
 
     @property
-    def peak_period(self) -> None:  # type: ignore[override]
+    def peak_period(self) -> None:
         return
 
     @property
@@ -158,82 +160,108 @@ class WhiteNoise(WaveSpectrum):
         return f"white noise from {low:g} to {high:g} Hz, Hs {height:g} m"
 
 
-@dataclass(frozen=True, repr=False)
-class TableSpectrum(WaveSpectrum):
+class TableSpectrum(WaveSpectrum, kw_only=False):
     """A user's own densities in m2/Hz at frequencies in Hz, linear in between, nothing beyond.
 
-    It is taken as it is: its area is the variance.
+    It is taken as it is: its area is the variance. Give both columns, or a CSV file with the header
+    ``frequency_hz,density_m2_per_hz``.
     """
 
-    frequency: tuple[float, ...]
-    ordinate: tuple[float, ...]
-    where: str = "waves, spectrum"
+    kind: Literal["table"] = Field(default="table", kw_only=True)
+    frequency: Numbers = key("frequency_hz", default=())
+    ordinate: Numbers = key("density_m2_per_hz", default=())
+    file: File | None = Field(default=None, kw_only=True)
 
-    def __post_init__(self) -> None:
-        count = f"{len(self.frequency)} frequencies and {len(self.ordinate)} densities"
-        if len(self.frequency) < 3 or len(self.frequency) != len(self.ordinate):
-            allowed = "three frequencies or more, and a density for each"
-            raise InputError(self.where, count, allowed, "Complete the table.")
-        f, s = np.array(self.frequency), np.array(self.ordinate)
-        if not (np.all(np.isfinite(f)) and np.all(np.isfinite(s))):
-            raise InputError(self.where, "NaN or infinity", "finite numbers", "Correct them.")
-        step = np.diff(f)
-        if f[0] <= 0 or np.any(step <= 0):
-            at = f[0] if f[0] <= 0 else f[1:][step <= 0][0]
-            allowed = "frequencies in Hz that are positive and rise strictly"
-            raise InputError(f"{self.where}, frequency", float(at), allowed, "Sort the table.")
-        if np.any(s < 0):
-            i = int(np.argmax(s < 0))
-            where = f"{self.where}, density at {f[i]:g} Hz"
-            raise InputError(where, float(s[i]), "0 m2/Hz or more", "Correct it.")
-        if not np.any(s > 0):
-            raise InputError(self.where, "zeros alone", "some variance", "Or use still water.")
-        gap = (step[1:] > _GAP * step[:-1]) | (step[:-1] > _GAP * step[1:])
-        if np.any(gap):
-            i = int(np.argmax(gap))
-            received = f"steps of {step[i]:g} and {step[i + 1]:g} Hz at {f[i + 1]:g} Hz"
-            allowed = f"steps that change by less than {_GAP:g} times from one to the next"
-            remedy = "Are rows missing? Fill the gap, with zeros where there are no waves."
-            raise InputError(f"{self.where}, frequency", received, allowed, remedy)
+    @model_validator(mode="after")
+    def _here_or_there(self) -> TableSpectrum:
+        if (self.file is None) == (not self.frequency and not self.ordinate):
+            raise ValueError(
+                "the table is given twice or not at all; give either file, or "
+                "frequency_hz and density_m2_per_hz"
+            )
+        if self.file is None:
+            fault = _fault_of_table(self.frequency, self.ordinate)
+            if fault is not None:
+                raise ValueError("; ".join(fault))
+        return self
 
-    def __repr__(self) -> str:
-        """Short, and still telling one table from another."""
-        content = hashlib.sha256(np.array([self.frequency, self.ordinate]).tobytes()).hexdigest()
-        return f"TableSpectrum({len(self.frequency)} rows, SHA-256 {content})"
-
-    @staticmethod
-    def read(path: Path) -> TableSpectrum:
-        """From a CSV file with the header ``frequency_hz,density_m2_per_hz``.
+    @cached_property
+    def columns(self) -> tuple[Array, Array]:
+        """Frequencies (n,) in Hz and densities (n,) in m2/Hz.
 
         Raises
         ------
-        InputError : a file, or a table, that cannot be used
+        InputError : a file, or a table in it, that cannot be used
         """
-        rows = [row for _, row in read_numbers(path, ("frequency_hz", "density_m2_per_hz"))]
+        if self.file is None:
+            return np.array(self.frequency), np.array(self.ordinate)
+        rows = [row for _, row in read_numbers(self.file, ("frequency_hz", "density_m2_per_hz"))]
         frequency, ordinate = zip(*rows, strict=True)
-        return TableSpectrum(frequency, ordinate, where=str(path))
+        fault = _fault_of_table(frequency, ordinate)
+        if fault is not None:
+            remedy = f"{fault[1][:1].upper()}{fault[1][1:]}."
+            raise InputError(str(self.file), fault[0], "", remedy)
+        return np.array(frequency), np.array(ordinate)
 
     @property
-    def significant_height(self) -> float:  # type: ignore[override]
-        return 4 * float(np.sqrt(np.trapezoid(self.ordinate, self.frequency)))
+    def significant_height(self) -> float:
+        frequency, ordinate = self.columns
+        return 4 * float(np.sqrt(np.trapezoid(ordinate, frequency)))
 
     @property
     def band(self) -> tuple[float, float]:
-        return self.frequency[0] * (1 - _EDGE), self.frequency[-1] * (1 + _EDGE)
+        frequency = self.columns[0]
+        return float(frequency[0]) * (1 - _EDGE), float(frequency[-1]) * (1 + _EDGE)
 
     @property
-    def peak_period(self) -> float:  # type: ignore[override]
-        return 1 / self.frequency[int(np.argmax(self.ordinate))]
+    def peak_period(self) -> float:
+        frequency, ordinate = self.columns
+        return 1 / float(frequency[int(np.argmax(ordinate))])
 
     def density(self, frequency: Array, depth: float, gravity: float) -> Array:
         low, high = self.band
         inside = (frequency >= low) & (frequency <= high)
-        return np.where(inside, np.interp(frequency, self.frequency, self.ordinate), 0.0)
+        return np.where(inside, np.interp(frequency, *self.columns), 0.0)
 
     @property
     def in_words(self) -> str:
         height, period = self.significant_height, self.peak_period
         return f"waves of a given spectrum, Hs {height:.3g} m, Tp {period:.3g} s"
+
+
+SpectrumChoice = Annotated[
+    JonswapSpectrum | TmaSpectrum | WhiteNoise | TableSpectrum, Field(discriminator="kind")
+]
+
+
+def _fault_of_table(
+    frequency: tuple[float, ...], ordinate: tuple[float, ...]
+) -> tuple[str, str] | None:
+    """What is wrong with a spectrum's table, and its remedy; None where nothing is."""
+    if len(frequency) < 3 or len(frequency) != len(ordinate):
+        return (
+            f"{len(frequency)} frequencies and {len(ordinate)} densities",
+            "give three frequencies or more, and a density for each",
+        )
+    f, s = np.array(frequency), np.array(ordinate)
+    step = np.diff(f)
+    if f[0] <= 0 or np.any(step <= 0):
+        at = f[0] if f[0] <= 0 else f[1:][step <= 0][0]
+        return f"the frequency {at:g} Hz is not above zero and the one before", "sort the table"
+    if np.any(s < 0):
+        i = int(np.argmax(s < 0))
+        return f"the density at {f[i]:g} Hz is {s[i]} m2/Hz", "a density is 0 or more"
+    if not np.any(s > 0):
+        return "all densities are zero", "give some variance, or use still water"
+    gap = (step[1:] > _GAP * step[:-1]) | (step[:-1] > _GAP * step[1:])
+    if np.any(gap):
+        i = int(np.argmax(gap))
+        return (
+            f"frequencies step by {step[i]:g} and {step[i + 1]:g} Hz at {f[i + 1]:g} Hz, more than "
+            f"{_GAP:g} times from one to the next: are rows missing?",
+            "fill the gap, with zeros where there are no waves",
+        )
+    return None
 
 
 def pierson_moskowitz(frequency: Array, significant_height: float, peak_period: float) -> Array:
@@ -285,12 +313,6 @@ def depth_factor(frequency: Array, depth: float, gravity: float) -> Array:
     decay = np.exp(-2 * kh)
     ratio = 4 * kh * decay / (1 - decay**2)
     return np.asarray(np.tanh(kh) ** 2 / (1 + ratio))
-
-
-def require_positive(where: str, value: float) -> None:
-    """Refuse what is no positive number."""
-    if not (np.isfinite(value) and value > 0):
-        raise InputError(where, value, "a positive number", "Correct it.")
 
 
 def _panels(peak: float) -> tuple[Array, Array]:

@@ -2,43 +2,29 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Literal, get_args
+from typing import Annotated, Literal
 
 import numpy as np
+from pydantic import Field
 
-from offwind_pin.base.definition import Array
-from offwind_pin.base.errors import InputError
-
-SpreadingKind = Literal["cos_2s", "cos_n"]
+from offwind_pin.base.definition import Array, Definition, Positive
 
 LARGEST_EXPONENT = 1000.0
 
 
-@dataclass(frozen=True)
-class Spreading:
+class Spreading(Definition, kw_only=False):
     """A density of directions about the mean one; two conventions of the exponent.
 
+    Attributes
+    ----------
     kind : ``"cos_2s"`` for cos^(2 s)((theta - mean) / 2) over the whole circle, whose exponent is
         s (Longuet-Higgins, Cartwright and Smith 1963), or ``"cos_n"`` for cos^n(theta - mean)
         within 90 degrees, whose exponent is n; DNV-RP-C205, 3.5.8, has both
-    exponent : s or n; the larger the narrower
+    exponent : float, s or n; the larger the narrower
     """
 
-    kind: SpreadingKind
-    exponent: float
-
-    def __post_init__(self) -> None:
-        if self.kind not in get_args(SpreadingKind):
-            allowed = ", ".join(get_args(SpreadingKind))
-            raise InputError("waves, field spreading.kind", self.kind, allowed, "Choose one.")
-        if not (np.isfinite(self.exponent) and 0 < self.exponent <= LARGEST_EXPONENT):
-            raise InputError(
-                "waves, field spreading.exponent",
-                self.exponent,
-                f"above 0 and at most {LARGEST_EXPONENT:g}",
-                "For long-crested waves leave spreading out.",
-            )
+    kind: Literal["cos_2s", "cos_n"]
+    exponent: Annotated[Positive, Field(le=LARGEST_EXPONENT)]
 
     def density(self, angle: Array) -> Array:
         """(n,) in 1/rad at angles (n,) in rad from the mean direction, from -pi to pi."""
@@ -82,6 +68,6 @@ class Spreading:
 
     @property
     def in_words(self) -> str:
-        """As a reader is told of it."""
+        """Short description for reports."""
         formula = "cos^2s(theta/2), s" if self.kind == "cos_2s" else "cos^n(theta), n"
         return f"spread by {formula} = {self.exponent:g}"

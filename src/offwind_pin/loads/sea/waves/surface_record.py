@@ -3,16 +3,24 @@
 from __future__ import annotations
 
 import hashlib
-import re
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated
 
 import numpy as np
+from pydantic import Field
 
-from offwind_pin.base.definition import Array, ComplexArray
+from offwind_pin.base.definition import (
+    Array,
+    ComplexArray,
+    Definition,
+    Number,
+    Numbers,
+    Positive,
+    key,
+)
 from offwind_pin.base.errors import InputError
-from offwind_pin.base.number_tables import read_text, to_numbers
-from offwind_pin.loads.tower_top.load_history import check_times
+from offwind_pin.base.number_tables import read_time_columns
 
 HIGHEST_SURFACE = 40.0
 """m; beyond any sea, but what cm, mm and marks of missing values give."""
@@ -26,18 +34,22 @@ TAPERED = 0.01
 """Of the record at each end, over which it fades unless another taper is given."""
 
 
-@dataclass(frozen=True)
-class SurfaceRecord:
-    """Elevations (t,) in m at even times from 0 in steps of dt s.
+class SurfaceRecord(Definition, kw_only=False):
+    """Surface elevations at even times from 0 on.
 
-    start : in s, the first time of the samples it was made from
-    resampled : whether they were not even
+    Attributes
+    ----------
+    dt : float, s
+    elevation : (t,) m
+    origin : str, where the numbers come from
+    start : float, s, the first time of the samples it was made from
+    resampled : bool, whether those were not even
     """
 
-    dt: float
-    elevation: Array = field(repr=False, compare=False)
+    dt: Positive = key("dt_s")
+    elevation: Annotated[Numbers, Field(min_length=FEWEST_SAMPLES)] = key("elevation_m")
     origin: str
-    start: float = 0.0
+    start: Number = key("start_s", default=0.0)
     resampled: bool = False
 
     @property
@@ -60,7 +72,7 @@ class SurfaceRecord:
         if not (np.all(np.isfinite(time)) and np.all(np.isfinite(elevation))):
             raise InputError(origin, "NaN or infinity", "finite numbers", "Fill the gaps.")
         if np.any(np.diff(time) <= 0):
-            raise InputError(origin, "times that fall back", "rising times", "Sort the rows.")
+            raise InputError(origin, "times that do not rise", "rising times", "Sort the rows.")
         worst = float(elevation[np.argmax(np.abs(elevation))])
         if abs(worst) > HIGHEST_SURFACE:
             raise InputError(
@@ -77,8 +89,7 @@ class SurfaceRecord:
             dt = float(np.median(np.diff(time)))
             even = np.arange(time[0], time[-1] + 1e-9 * dt, dt)
             elevation = np.interp(even, time, elevation)
-        values = np.array(elevation, dtype=float)
-        return SurfaceRecord(dt, values, origin, float(time[0]), bool(uneven))
+        return SurfaceRecord(dt, tuple(elevation.tolist()), origin, float(time[0]), bool(uneven))
 
     def harmonics(
         self, low_cut: float, high_cut: float, taper: float | None = None
@@ -94,7 +105,7 @@ class SurfaceRecord:
         n, duration = len(self.elevation), self.duration
         at = np.arange(n) * self.dt
         slope, start = np.polyfit(at, self.elevation, 1)
-        level = self.elevation - (start + slope * at)
+        level = np.array(self.elevation) - (start + slope * at)
         fade = TAPERED * duration if taper is None else taper
         if fade > 0:
             level = level * tukey(n, min(2 * fade / duration, 1.0))
@@ -104,14 +115,14 @@ class SurfaceRecord:
             order <= high_cut * duration * (1 + 1e-12)
         )
         square = np.abs(lines[1:]) ** 2
-        lost = 1 - np.sum(square[kept[1:]]) / np.sum(square)
+        left_out = 1 - np.sum(square[kept[1:]]) / np.sum(square)
         return RecordHarmonics(
             order[kept],
             lines[kept],
             float(np.mean(self.elevation)),
             float(slope * duration),
             float(fade),
-            float(lost),
+            float(left_out),
         )
 
 
@@ -136,44 +147,16 @@ class RecordHarmonics:
 
 
 def read_surface_record(path: Path) -> SurfaceRecord:
-    """Two columns, time in s and elevation in m.
+    """Two columns, time in s and elevation in m; see :func:`read_time_columns`.
 
-    Columns are separated by blanks, tabs, commas or semicolons; ``#``, ``!`` and ``%`` start a
-    comment, and the first line may name the columns.
+    The first line may name the columns.
 
     Raises
     ------
-    InputError : missing, empty or short file; a cell that is no number; times that do not rise, or
-        leave a gap; elevations beyond any sea
+    InputError : missing, empty or short file; a cell that is not a number; times that do not rise,
+        or leave a gap; elevations beyond any sea
     """
-    text = read_text(path)
-    rows: list[tuple[float, ...]] = []
-    lines: list[int] = []
-    header_allowed = True
-    for line, raw in enumerate(text.splitlines(), 1):
-        data = re.split(r"[#!%]", raw, maxsplit=1)[0].strip()
-        if not data:
-            continue
-        cells = re.split(r"\s*[,;]\s*|\s+", data)
-        named = header_allowed and not any(_is_number(cell) for cell in cells)
-        header_allowed = False
-        if named:
-            continue
-        rows.append(to_numbers(path, line, cells, 2))
-        lines.append(line)
-    if len(rows) < FEWEST_SAMPLES:
-        allowed = f"{FEWEST_SAMPLES} rows or more"
-        raise InputError(str(path), f"{len(rows)} rows", allowed, "Is the file complete?")
-    values = np.array(rows)
-    check_times(path, values[:, 0], lines, "line")
+    values, _, text = read_time_columns(path, 2, fewest=FEWEST_SAMPLES, header=True)
     digest = hashlib.sha256(text.encode()).hexdigest()
     origin = f"{path.name} (SHA-256 {digest})"
     return SurfaceRecord.of(values[:, 0], values[:, 1], origin)
-
-
-def _is_number(cell: str) -> bool:
-    try:
-        float(cell)
-    except ValueError:
-        return False
-    return True

@@ -2,38 +2,52 @@
 
 from __future__ import annotations
 
-from typing import Literal
-
 import numpy as np
 
 from offwind_pin.base.definition import Array
-from offwind_pin.definitions.soil.layers import ApiSand
-from offwind_pin.loads.soil.curves.laws import SoilCurves, tanh_curves
-from offwind_pin.loads.soil.soil_profile import Ground
+from offwind_pin.definitions.soil.layers import ApiSand, Loading
+from offwind_pin.loads.soil.curves.family import SoilFamily, diameter_cautions, layer_label
+from offwind_pin.loads.soil.curves.laws import TanhCurves
+from offwind_pin.loads.soil.soil_profile import PileNodes
 
 _EARTH_PRESSURE_AT_REST = 0.4
 _LEAST_MODULUS = 5.4e6
 
+API_FRICTION_ANGLE = (25.0, 40.0)
+"""Friction angles in degrees for which API RP 2GEO gives an initial modulus."""
 
-def api_sand_curves(
-    layer: ApiSand, ground: Ground, stress: Array, loading: Literal["static", "cyclic"]
-) -> SoilCurves:
+
+class ApiSandFamily(SoilFamily[ApiSand]):
     """p = A p_u tanh(k z y / (A p_u)), with z below the actual mudline.
 
     A = 0.9 for cyclic loading and max(0.9, 3 - 0.8 z / D) for static;
-    p_u = min((C1 z + C2 D) s', C3 D s').
-
-    stress : (n,) vertical effective stress s' in Pa
+    p_u = min((C1 z + C2 D) s', C3 D s') with the vertical effective stress s'.
     """
-    depth, diameter = ground.depth, ground.diameter
-    c1, c2, c3 = resistance_factors(layer.friction_angle)
-    shallow = (c1 * depth + c2 * diameter) * stress
-    deep = c3 * diameter * stress
-    factor = np.full_like(depth, 0.9)
-    if loading == "static":
-        factor = np.maximum(factor, 3.0 - 0.8 * depth / diameter)
-    modulus = layer.initial_modulus or initial_modulus(layer.friction_angle)
-    return tanh_curves(modulus * depth, factor * np.minimum(shallow, deep))
+
+    layer = ApiSand
+
+    def lateral(
+        self, layer: ApiSand, nodes: PileNodes, stress: Array, loading: Loading
+    ) -> TanhCurves:
+        depth, diameter = nodes.depth, nodes.diameter
+        c1, c2, c3 = resistance_factors(layer.friction_angle)
+        shallow = (c1 * depth + c2 * diameter) * stress
+        deep = c3 * diameter * stress
+        factor = np.full_like(depth, 0.9)
+        if loading == "static":
+            factor = np.maximum(factor, 3.0 - 0.8 * depth / diameter)
+        modulus = layer.initial_modulus or initial_modulus(layer.friction_angle)
+        return TanhCurves(modulus * depth, factor * np.minimum(shallow, deep))
+
+    def cautions(self, layer: ApiSand, nodes: PileNodes) -> list[str]:
+        low, high = API_FRICTION_ANGLE
+        found = diameter_cautions(layer, nodes)
+        if not low <= layer.friction_angle <= high:
+            found.append(
+                f"{layer_label(layer)}: a friction angle of {layer.friction_angle:g} deg is "
+                f"outside {low:g} to {high:g} deg, for which API gives an initial modulus"
+            )
+        return found
 
 
 def resistance_factors(friction_angle: float) -> tuple[float, float, float]:

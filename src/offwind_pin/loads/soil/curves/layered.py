@@ -2,35 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Literal
-
 import numpy as np
 
 from offwind_pin.base.definition import Array
-from offwind_pin.definitions.soil.layers import (
-    ApiSand,
-    Layer,
-    LayeredGround,
-    MatlockClay,
-    Pisa,
-    StiffClay,
-)
+from offwind_pin.definitions.soil.layers import LayeredGround, SoilLayer
 from offwind_pin.definitions.soil.springs import LateralCurve
-from offwind_pin.loads.soil.curves.api_sand import api_sand_curves
-from offwind_pin.loads.soil.curves.clay import matlock_curves, stiff_clay_curves
-from offwind_pin.loads.soil.curves.laws import SoilCurves, linear_curves, soil_curves, stack_curves
-from offwind_pin.loads.soil.curves.pisa import (
-    RockingCurves,
-    pisa_base_moment,
-    pisa_base_shear,
-    pisa_lateral,
-    pisa_rocking,
-)
-from offwind_pin.loads.soil.soil_profile import Ground, effective_stress, layer_index
+from offwind_pin.loads.soil.curves.api_sand import ApiSandFamily
+from offwind_pin.loads.soil.curves.clay import MatlockClayFamily, StiffClayFamily
+from offwind_pin.loads.soil.curves.family import RockingCurves, family_of, register_family
+from offwind_pin.loads.soil.curves.pisa import PisaFamily
+from offwind_pin.loads.soil.curves.soil_curve import Indices, SoilCurve, SoilCurves, stack_curves
+from offwind_pin.loads.soil.curves.tabulated import soil_curves
+from offwind_pin.loads.soil.soil_profile import PileNodes, effective_stress, layer_index
+
+for _family in (ApiSandFamily(), MatlockClayFamily(), StiffClayFamily(), PisaFamily()):
+    register_family(_family)
 
 
-def lateral_curves(curve: LateralCurve, ground: Ground) -> SoilCurves:
+def lateral_curves(curve: LateralCurve, nodes: PileNodes) -> SoilCurves:
     """p in N/m over y in m at every node.
 
     In layered ground a node takes the curve of the layer it lies in, exactly on a boundary of the
@@ -39,75 +28,69 @@ def lateral_curves(curve: LateralCurve, ground: Ground) -> SoilCurves:
 
     Raises
     ------
-    InputError : a table that cannot be read, or a pile outside what PISA's parameters can describe
+    InputError : a table that cannot be read, or a pile outside what a family can describe
     """
     if not isinstance(curve, LayeredGround):
-        return soil_curves(curve, ground.depth)
-    stress, index = effective_stress(curve.layers, ground), layer_index(curve.layers, ground)
-    parts = []
-    for i in np.unique(index):
-        places = np.flatnonzero(index == i)
-        layer = curve.layers[i]
-        parts.append(
-            (places, _layer_curves(layer, ground.at(places), stress[places], curve.loading))
-        )
-    return stack_curves(parts)
-
-
-def rocking_curves(curve: LateralCurve, ground: Ground) -> RockingCurves | None:
-    """Distributed moment of the nodes in PISA layers, nothing elsewhere; None without such nodes.
-
-    Raises
-    ------
-    InputError : a pile outside what PISA's parameters can describe
-    """
-    if not isinstance(curve, LayeredGround):
-        return None
-    stress, index = effective_stress(curve.layers, ground), layer_index(curve.layers, ground)
-    parts = []
-    by_lateral = np.zeros(len(index), dtype=bool)
-    for i in np.unique(index):
-        places, layer = np.flatnonzero(index == i), curve.layers[i]
-        if isinstance(layer, Pisa):
-            parts.append((places, pisa_rocking(layer, ground.at(places), stress[places])))
-            by_lateral[places] = layer.reactions.soil == "sand"
-    if not parts:
-        return None
-    rest = np.setdiff1d(np.arange(len(index)), np.concatenate([places for places, _ in parts]))
-    return RockingCurves(
-        stack_curves([*parts, (rest, linear_curves(np.zeros(len(rest))))]), by_lateral
+        return soil_curves(curve, nodes.depth)
+    return stack_curves(
+        [
+            (at, family_of(layer).lateral(layer, nodes.at(at), stress, curve.loading))
+            for at, layer, stress in _by_layer(curve, nodes)
+        ]
     )
 
 
-def base_shear_curve(curve: LateralCurve, ground: Ground) -> SoilCurves | None:
-    """H in N over v in m at the toe, one row; None unless PISA describes the layer there."""
-    return _base_curve(curve, ground, pisa_base_shear)
+def rocking_curves(curve: LateralCurve, nodes: PileNodes) -> tuple[Indices, RockingCurves] | None:
+    """Distributed moments, and the nodes in whose layers there are some; None without any.
 
-
-def base_moment_curve(curve: LateralCurve, ground: Ground) -> SoilCurves | None:
-    """M in N m over psi in rad at the toe, one row; None unless PISA describes the layer there."""
-    return _base_curve(curve, ground, pisa_base_moment)
-
-
-def _base_curve(
-    curve: LateralCurve, ground: Ground, reaction: Callable[[Pisa, Ground, Array], SoilCurves]
-) -> SoilCurves | None:
+    Raises
+    ------
+    InputError : a pile outside what a family can describe
+    """
     if not isinstance(curve, LayeredGround):
         return None
-    toe = ground.toe
-    layer = curve.layers[layer_index(curve.layers, toe)[0]]
-    if not isinstance(layer, Pisa):
+    found = []
+    for at, layer, stress in _by_layer(curve, nodes):
+        rocking = family_of(layer).rocking(layer, nodes.at(at), stress)
+        if rocking is not None:
+            found.append((at, rocking))
+    if not found:
         return None
-    return reaction(layer, toe, effective_stress(curve.layers, toe))
+    chosen = np.concatenate([at for at, _ in found])
+    ends = np.cumsum([len(at) for at, _ in found])
+    parts = [
+        (np.arange(end - len(at), end), rocking.curves)
+        for end, (at, rocking) in zip(ends, found, strict=True)
+    ]
+    by_lateral = np.concatenate([rocking.by_lateral for _, rocking in found])
+    return chosen, RockingCurves(stack_curves(parts), by_lateral)
 
 
-def _layer_curves(
-    layer: Layer, ground: Ground, stress: Array, loading: Literal["static", "cyclic"]
-) -> SoilCurves:
-    if isinstance(layer, ApiSand):
-        return api_sand_curves(layer, ground, stress, loading)
-    if isinstance(layer, MatlockClay):
-        return matlock_curves(layer, ground, stress, loading)
-    if isinstance(layer, StiffClay):
-        return stiff_clay_curves(layer, ground, stress)
-    return pisa_lateral(layer, ground, stress)
+def base_shear_curve(curve: LateralCurve, nodes: PileNodes) -> SoilCurve | None:
+    """H in N over v in m at the toe, one curve; None unless the layer there has one."""
+    at_toe = _at_toe(curve, nodes)
+    return None if at_toe is None else family_of(at_toe[0]).base_shear(*at_toe)
+
+
+def base_moment_curve(curve: LateralCurve, nodes: PileNodes) -> SoilCurve | None:
+    """M in N m over psi in rad at the toe, one curve; None unless the layer there has one."""
+    at_toe = _at_toe(curve, nodes)
+    return None if at_toe is None else family_of(at_toe[0]).base_moment(*at_toe)
+
+
+def _at_toe(curve: LateralCurve, nodes: PileNodes) -> tuple[SoilLayer, PileNodes, Array] | None:
+    if not isinstance(curve, LayeredGround):
+        return None
+    toe = nodes.toe
+    return (
+        curve.layers[layer_index(curve.layers, toe)[0]],
+        toe,
+        effective_stress(curve.layers, toe),
+    )
+
+
+def _by_layer(curve: LayeredGround, nodes: PileNodes) -> list[tuple[Indices, SoilLayer, Array]]:
+    """Nodes of each layer that has some, the layer, and the stresses at the nodes."""
+    stress, index = effective_stress(curve.layers, nodes), layer_index(curve.layers, nodes)
+    places = [np.flatnonzero(index == i) for i in np.unique(index)]
+    return [(at, curve.layers[index[at[0]]], stress[at]) for at in places]

@@ -9,59 +9,73 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError
-from offwind_pin.definitions.soil.layers import Pisa
+from offwind_pin.definitions.soil.layers import Loading, Pisa
 from offwind_pin.definitions.soil.pisa import PisaReaction
-from offwind_pin.loads.soil.curves.laws import SoilCurves, conic_curves
-from offwind_pin.loads.soil.soil_profile import Ground
+from offwind_pin.loads.soil.curves.family import RockingCurves, SoilFamily, layer_label
+from offwind_pin.loads.soil.curves.laws import ConicCurves
+from offwind_pin.loads.soil.soil_profile import PileNodes
+
+PISA_SLENDERNESS = (2.0, 6.0)
+"""L/D of the calculations that PISA was calibrated on."""
+
+PISA_RELATIVE_DENSITY = (0.45, 0.9)
+"""Relative densities of the calculations behind the General Dunkirk Sand Model."""
 
 
-@dataclass(frozen=True, eq=False)
-class RockingCurves:
-    """Distributed moment over the rotation of the pile.
+class PisaFamily(SoilFamily[Pisa]):
+    """Lateral resistance and rocking moment along the pile, shear and moment at its base.
 
-    Attributes
-    ----------
-    curves : m in N m/m over psi in rad; m / abs(p) in m where ``by_lateral``
-    by_lateral : (n,) whether the curve is to be multiplied by the lateral resistance abs(p) in N/m
+    All raise :class:`InputError` for a pile so far outside the calibration that there is no such
+    curve.
     """
 
-    curves: SoilCurves
-    by_lateral: NDArray[np.bool_]
+    layer = Pisa
 
+    def lateral(
+        self, layer: Pisa, nodes: PileNodes, stress: Array, loading: Loading
+    ) -> ConicCurves:
+        conic = _Conic.of(layer, layer.reactions.lateral, "lateral", nodes, stress)
+        return conic.curves(nodes.diameter, nodes.diameter)
 
-def pisa_lateral(layer: Pisa, ground: Ground, stress: Array) -> SoilCurves:
-    """p in N/m over v in m; stress (n,) is the vertical effective one in Pa.
+    def rocking(self, layer: Pisa, nodes: PileNodes, stress: Array) -> RockingCurves:
+        """m in N m/m over psi in rad in clay, m / abs(p) in m over psi in sand."""
+        conic = _Conic.of(layer, layer.reactions.rocking, "rocking", nodes, stress)
+        sand = layer.reactions.soil == "sand"
+        if sand:
+            strength = np.where(conic.strength > 0, conic.strength, 1)
+            curves = conic.curves(1.0, nodes.diameter / strength)
+        else:
+            curves = conic.curves(1.0, nodes.diameter**2)
+        return RockingCurves(curves, np.full(len(stress), sand))
 
-    Raises
-    ------
-    InputError : a pile so far outside the calibration that there is no such curve
-    """
-    conic = _Conic.of(layer, layer.reactions.lateral, "lateral", ground, stress)
-    return conic.curves(ground.diameter, ground.diameter)
+    def base_shear(self, layer: Pisa, toe: PileNodes, stress: Array) -> ConicCurves:
+        conic = _Conic.of(layer, layer.reactions.base_shear, "base_shear", toe, stress)
+        return conic.curves(toe.diameter, toe.diameter**2)
 
+    def base_moment(self, layer: Pisa, toe: PileNodes, stress: Array) -> ConicCurves:
+        conic = _Conic.of(layer, layer.reactions.base_moment, "base_moment", toe, stress)
+        return conic.curves(1.0, toe.diameter**3)
 
-def pisa_rocking(layer: Pisa, ground: Ground, stress: Array) -> SoilCurves:
-    """m in N m/m over psi in rad in clay, m / abs(p) in m over psi in sand; as ``pisa_lateral``."""
-    conic = _Conic.of(layer, layer.reactions.rocking, "rocking", ground, stress)
-    if layer.reactions.soil == "sand":
-        return conic.curves(1.0, ground.diameter / np.where(conic.strength > 0, conic.strength, 1))
-    return conic.curves(1.0, ground.diameter**2)
-
-
-def pisa_base_shear(layer: Pisa, toe: Ground, stress: Array) -> SoilCurves:
-    """H in N over v in m at the toe; as ``pisa_lateral``."""
-    conic = _Conic.of(layer, layer.reactions.base_shear, "base_shear", toe, stress)
-    return conic.curves(toe.diameter, toe.diameter**2)
-
-
-def pisa_base_moment(layer: Pisa, toe: Ground, stress: Array) -> SoilCurves:
-    """M in N m over psi in rad at the toe; as ``pisa_lateral``."""
-    conic = _Conic.of(layer, layer.reactions.base_moment, "base_moment", toe, stress)
-    return conic.curves(1.0, toe.diameter**3)
+    def cautions(self, layer: Pisa, nodes: PileNodes) -> list[str]:
+        largest, smallest = float(nodes.diameter.max()), float(nodes.diameter.min())
+        found = []
+        low, high = PISA_SLENDERNESS
+        slenderness = (nodes.length / largest, nodes.length / smallest)
+        if not (low <= slenderness[0] and slenderness[1] <= high):
+            found.append(
+                f"{layer_label(layer)}: PISA was calibrated for L/D from {low:g} to {high:g}; this "
+                f"pile has {slenderness[0]:.3g}"
+            )
+        low, high = PISA_RELATIVE_DENSITY
+        if layer.relative_density is not None and not low <= layer.relative_density <= high:
+            found.append(
+                f"{layer_label(layer)}: a relative density of {layer.relative_density:g} is "
+                f"outside {low:g} to {high:g}, for which the sand model was calibrated"
+            )
+        return found
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,9 +90,11 @@ class _Conic:
     curvature: Array
 
     @staticmethod
-    def of(layer: Pisa, reaction: PisaReaction, name: str, ground: Ground, stress: Array) -> _Conic:
+    def of(
+        layer: Pisa, reaction: PisaReaction, name: str, nodes: PileNodes, stress: Array
+    ) -> _Conic:
         density = layer.relative_density or 0.0
-        where = (ground.depth, ground.diameter, ground.length, density)
+        where = (nodes.depth, nodes.diameter, nodes.length, density)
         stiffness = reaction.initial_stiffness.at(*where)
         curvature = reaction.curvature.at(*where)
         resistance = reaction.ultimate_resistance.at(*where)
@@ -94,11 +110,11 @@ class _Conic:
             & (curvature < 1)
         )
         if not exists.all():
-            _refuse(layer, name, ground.at(~exists))
+            _refuse(layer, name, nodes.at(~exists))
         strength = stress
         if layer.undrained_shear_strength is not None:
-            strength = layer.undrained_shear_strength.at(ground.original_depth)
-        shear_modulus = layer.shear_modulus.at(ground.original_depth)
+            strength = layer.undrained_shear_strength.at(nodes.original_depth)
+        shear_modulus = layer.shear_modulus.at(nodes.original_depth)
         if np.any((strength > 0) & (shear_modulus <= 0)):
             raise InputError(
                 f"pisa layer from {layer.top:g} m, field shear_modulus_pa",
@@ -108,13 +124,13 @@ class _Conic:
             )
         return _Conic(strength, shear_modulus, displacement, resistance, ratio, curvature)
 
-    def curves(self, length: Array | float, area: Array | float) -> SoilCurves:
+    def curves(self, length: Array | float, area: Array | float) -> ConicCurves:
         """With displacements times length strength / G0, and resistances times area strength."""
         firm = self.strength > 0
         shear = np.divide(
             self.strength, self.shear_modulus, out=np.ones_like(firm, float), where=firm
         )
-        return conic_curves(
+        return ConicCurves(
             self.displacement * length * shear,
             self.resistance * area * self.strength,
             self.slope_ratio,
@@ -122,13 +138,13 @@ class _Conic:
         )
 
 
-def _refuse(layer: Pisa, reaction: str, ground: Ground) -> None:
-    depth, diameter = float(ground.depth[0]), float(ground.diameter[0])
+def _refuse(layer: Pisa, reaction: str, nodes: PileNodes) -> None:
+    depth, diameter = float(nodes.depth[0]), float(nodes.diameter[0])
     raise InputError(
         f"pisa layer from {layer.top:g} m, reaction {reaction}",
-        f"z/D = {depth / diameter:.3g}, L/D = {ground.length / diameter:.3g}",
+        f"z/D = {depth / diameter:.3g}, L/D = {nodes.length / diameter:.3g}",
         "a positive stiffness and resistance, an initial stiffness of at least the ultimate "
         "resistance over its displacement, and a curvature in [0, 1)",
-        "The published parameters hold for L/D from 2 to 6; change the pile, or give parameters "
-        "that hold for it.",
+        "The published parameters are valid for L/D from 2 to 6; change the pile, or give "
+        "parameters that are valid for it.",
     )

@@ -19,15 +19,10 @@ from offwind_pin.definitions.soil.springs import (
     TanhTorsion,
     TorsionTable,
 )
-from offwind_pin.loads.soil.curves.laws import (
-    SoilCurves,
-    linear_curves,
-    point_curves,
-    tabulated_curve,
-    tabulated_curves,
-    tanh_curves,
-)
-from offwind_pin.loads.soil.soil_profile import Ground
+from offwind_pin.loads.soil.curves.laws import LinearCurves, PolygonCurves, TanhCurves
+from offwind_pin.loads.soil.curves.soil_curve import SoilCurve
+from offwind_pin.loads.soil.curves.tabulated import tabulated_curve, tabulated_curves
+from offwind_pin.loads.soil.soil_profile import PileNodes
 
 _SAND_PEAK = 2.5e-3
 """Displacement in m at which the skin friction of sand is mobilised, API RP 2GEO (2011), 8.4."""
@@ -41,71 +36,71 @@ _BEARING = np.array([[0, 0.002, 0.013, 0.042, 0.073, 0.1], [0, 0.25, 0.5, 0.75, 
 """z / D over Q / Q_p, API RP 2GEO (2011), 8.4."""
 
 
-def vertical_curves(springs: DistributedSprings, ground: Ground) -> SoilCurves | None:
+def vertical_curves(springs: DistributedSprings, nodes: PileNodes) -> SoilCurve | None:
     """t in N/m over the size of z in m along the shaft, or None; depth below the actual mudline.
 
     Raises
     ------
     InputError : a table that cannot be read
     """
-    curve, depth = springs.vertical, ground.depth
+    curve, depth = springs.vertical, nodes.depth
     if curve is None:
         return None
     if isinstance(curve, LinearModulus):
-        return linear_curves(curve.modulus.at(depth))
+        return LinearCurves(curve.modulus.at(depth))
     if isinstance(curve, TanhCurve):
-        return tanh_curves(curve.initial_modulus.at(depth), curve.ultimate_resistance.at(depth))
+        return TanhCurves(curve.initial_modulus.at(depth), curve.ultimate_resistance.at(depth))
     if isinstance(curve, ShaftTable):
         return tabulated_curves(curve.file, depth, columns=("depth_m", "z_m", "t_n_per_m"))
-    z, friction = _shaft_friction(curve, ground)
-    return point_curves(z, np.pi * ground.diameter[:, None] * friction)
+    z, friction = _shaft_friction(curve, nodes)
+    return PolygonCurves(z, np.pi * nodes.diameter[:, None] * friction)
 
 
-def torsional_curves(springs: DistributedSprings, ground: Ground) -> SoilCurves | None:
+def torsional_curves(springs: DistributedSprings, nodes: PileNodes) -> SoilCurve | None:
     """Torque per length in N m/m over the size of the twist in rad; as ``vertical_curves``.
 
     Skin friction f gives the torque pi D^2 / 2 f(theta D / 2).
     """
-    curve, depth = springs.torsional, ground.depth
+    curve, depth = springs.torsional, nodes.depth
     if curve is None:
         return None
     if isinstance(curve, LinearTorsion):
-        return linear_curves(curve.stiffness.at(depth))
+        return LinearCurves(curve.stiffness.at(depth))
     if isinstance(curve, TanhTorsion):
-        return tanh_curves(curve.initial_stiffness.at(depth), curve.ultimate_torque.at(depth))
+        return TanhCurves(curve.initial_stiffness.at(depth), curve.ultimate_torque.at(depth))
     if isinstance(curve, TorsionTable):
         columns = ("depth_m", "twist_rad", "torque_nm_per_m")
         return tabulated_curves(curve.file, depth, columns=columns)
-    z, friction = _shaft_friction(curve, ground)
-    radius = ground.diameter[:, None] / 2
-    return point_curves(z / radius, 2 * np.pi * radius**2 * friction)
+    z, friction = _shaft_friction(curve, nodes)
+    radius = nodes.diameter[:, None] / 2
+    return PolygonCurves(z / radius, 2 * np.pi * radius**2 * friction)
 
 
-def toe_bearing_curve(springs: DistributedSprings, ground: Ground) -> SoilCurves | None:
+def toe_bearing_curve(springs: DistributedSprings, nodes: PileNodes) -> SoilCurve | None:
     """Q in N over the downward z in m at the toe, one row, or None; as ``vertical_curves``."""
     curve = springs.toe_bearing
     if curve is None:
         return None
     if isinstance(curve, LinearBearing):
-        return linear_curves(np.array([curve.stiffness]))
+        return LinearCurves(np.array([curve.stiffness]))
     if isinstance(curve, TanhBearing):
-        return tanh_curves(
+        return TanhCurves(
             np.array([curve.initial_stiffness]), np.array([curve.ultimate_resistance])
         )
     if not isinstance(curve, ApiBearing):
         return tabulated_curve(curve.file, ("z_m", "q_n"))
-    diameter = float(ground.toe.diameter[0])
+    diameter = float(nodes.toe.diameter[0])
     area = np.pi * diameter**2 / 4 if curve.area is None else curve.area
     z, q = diameter * _BEARING[0], curve.end_bearing * area * _BEARING[1]
-    return point_curves(z[None], q[None])
+    return PolygonCurves(z[None], q[None])
 
 
-def _shaft_friction(curve: ApiShaft | ApiTorsion, ground: Ground) -> tuple[Array, Array]:
+def _shaft_friction(curve: ApiShaft | ApiTorsion, nodes: PileNodes) -> tuple[Array, Array]:
     """Points of the wall's displacement in m and the unit skin friction in Pa, both (n, m)."""
-    peak = curve.skin_friction.at(ground.depth)[:, None]
+    peak = curve.skin_friction.at(nodes.depth)[:, None]
     if curve.residual_ratio is None:
         z = np.tile([0.0, _SAND_PEAK], (len(peak), 1))
         return z, peak * np.array([0.0, 1.0])
     ratio = _CLAY_SHAFT[1].copy()
     ratio[-1] = curve.residual_ratio
-    return ground.diameter[:, None] * _CLAY_SHAFT[0], peak * ratio
+    return nodes.diameter[:, None] * _CLAY_SHAFT[0], peak * ratio

@@ -7,27 +7,27 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from offwind_pin.base.definition import Array
-from offwind_pin.base.kernels import kernel
+from offwind_pin.base.kernels import inner
 from offwind_pin.definitions.soil.springs import DampingCurve, SoilDashpot
 
 
-@kernel
-def ratio_at(numbers: Array, y: float) -> tuple[float, float]:
+@inner
+def ratio_at(table: Array, y: float) -> tuple[float, float]:
     """Coefficient over secant stiffness in s at a deflection y >= 0, and its derivative by y.
 
-    numbers : :attr:`Dashpot.numbers`; linear in log y between the points
+    table : :attr:`Dashpot.table`; linear in log y between the points
     """
-    count = int(numbers[0])
-    if count == 1 or y <= numbers[1]:
-        return numbers[1 + count], 0.0
-    if y >= numbers[count]:
-        return numbers[2 * count], 0.0
+    count = int(table[0])
+    if count == 1 or y <= table[1]:
+        return table[1 + count], 0.0
+    if y >= table[count]:
+        return table[2 * count], 0.0
     k = 1
-    while y > numbers[1 + k]:
+    while y > table[1 + k]:
         k += 1
-    low, high = numbers[count + k], numbers[count + k + 1]
-    slope = (high - low) / np.log(numbers[1 + k] / numbers[k])
-    return low + slope * np.log(y / numbers[k]), slope / y
+    low, high = table[count + k], table[count + k + 1]
+    slope = (high - low) / np.log(table[1 + k] / table[k])
+    return low + slope * np.log(y / table[k]), slope / y
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,8 +46,8 @@ class Dashpot:
     initial_time: float = 0.0
 
     @property
-    def numbers(self) -> Array:
-        """(1 + 2 b,) for the constants of a load."""
+    def table(self) -> Array:
+        """(1 + 2 b,) number of points, their deflections and times, for the constants of a load."""
         return np.concatenate([[len(self.deflection)], self.deflection, self.secant_time])
 
     @staticmethod

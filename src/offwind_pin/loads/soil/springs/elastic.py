@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 
 from offwind_pin.base.definition import Array
-from offwind_pin.base.kernels import kernel
+from offwind_pin.base.kernels import ExchangeableKernel, inner
 from offwind_pin.loads.point_load import (
     BY_POSITION,
     BY_VELOCITY,
@@ -18,60 +19,78 @@ from offwind_pin.loads.point_load import (
     SPIN,
     TURN,
     VELOCITY,
+    GroupedLoad,
     KernelLoad,
     energy_kernel,
     force_kernel,
     tangent_kernel,
 )
-from offwind_pin.loads.soil.curves.laws import SoilCurves, curve_at, curve_energy, secant_at
+from offwind_pin.loads.soil.curves.soil_curve import (
+    Indices,
+    SoilCurve,
+    SoilCurves,
+    law_functions,
+)
 from offwind_pin.loads.soil.springs.dashpot import Dashpot, ratio_at
 
 
 @dataclass(frozen=True)
-class Direction:
-    """What a spring resists, as columns of motion and force, and places among the tangents.
+class SpringComponent:
+    """What a spring resists, as columns of motion and force and places among the tangents.
 
-    deflection, rate, force : first columns; components : how many follow one another, of which the
-    law sees the vector's size; stiffness, damping : places of the tangents, at ``component``
+    Attributes
+    ----------
+    deflection, rate, force : first columns
+    size : number of components, whose law sees the length of the vector
+    stiffness, damping : places of the tangents
+    first : first row and column in them
     """
 
     deflection: int
     rate: int
     force: int
-    components: int
+    size: int
     stiffness: int
     damping: int
-    component: int
+    first: int
 
     @property
-    def numbers(self) -> Array:
-        """(7,) for the constants of a load."""
-        return np.array(
-            [
-                self.deflection,
-                self.rate,
-                self.force,
-                self.components,
-                self.stiffness,
-                self.damping,
-                self.component,
-            ],
-            dtype=float,
+    def columns(self) -> Array:
+        """(7,) for the constants of a load, as ``DEFLECTION`` and the others have them."""
+        whole = (
+            self.deflection,
+            self.rate,
+            self.force,
+            self.size,
+            self.stiffness,
+            self.damping,
+            self.first,
         )
+        return np.array(whole, dtype=float)
+
+    @property
+    def turns(self) -> bool:
+        """Whether it resists rotation, so that its forces are moments."""
+        return self.stiffness == MOMENT_BY_TURN
 
 
-LATERAL = Direction(DISPLACEMENT.start, VELOCITY.start, 0, 2, BY_POSITION, BY_VELOCITY, 0)
-VERTICAL = Direction(DISPLACEMENT.start + 2, VELOCITY.start + 2, 2, 1, BY_POSITION, BY_VELOCITY, 2)
-ROCKING = Direction(TURN.start, SPIN.start, 3, 2, MOMENT_BY_TURN, MOMENT_BY_SPIN, 0)
-TORSIONAL = Direction(TURN.start + 2, SPIN.start + 2, 5, 1, MOMENT_BY_TURN, MOMENT_BY_SPIN, 2)
+LATERAL = SpringComponent(DISPLACEMENT.start, VELOCITY.start, 0, 2, BY_POSITION, BY_VELOCITY, 0)
+VERTICAL = SpringComponent(
+    DISPLACEMENT.start + 2, VELOCITY.start + 2, 2, 1, BY_POSITION, BY_VELOCITY, 2
+)
+ROCKING = SpringComponent(TURN.start, SPIN.start, 3, 2, MOMENT_BY_TURN, MOMENT_BY_SPIN, 0)
+TORSIONAL = SpringComponent(TURN.start + 2, SPIN.start + 2, 5, 1, MOMENT_BY_TURN, MOMENT_BY_SPIN, 2)
 """Horizontal displacement, settlement, rotation about horizontal axes, twist about the axis."""
 
-_LENGTH, _CONSTANT, _DASHPOT, _CURVE = range(7, 11)
-"""Columns of a node's constants after its direction: tributary length, dashpot coefficient that is
-constant, and where the numbers of the dashpot and of the curve begin."""
+DEFLECTION, RATE, FORCE, SIZE, STIFFNESS, DAMPING, FIRST = range(7)
+"""Columns of a node's constants that say what its spring resists: those of its component."""
+_LENGTH, CONSTANT_DASHPOT, _DASHPOT = range(7, 10)
+"""Further columns: tributary length, coefficient of a constant dashpot, and from the last on the
+table of the dashpot that varies, which begins with the number of its points. The parameters of the
+curve follow."""
 
 
-@kernel
+@inner
 def deflection_size(values: Array, first: int, components: int) -> float:
     """Size of the deflection in a row of motion."""
     if components == 1:
@@ -79,57 +98,78 @@ def deflection_size(values: Array, first: int, components: int) -> float:
     return np.sqrt(values[first] ** 2 + values[first + 1] ** 2)
 
 
-@force_kernel
-def _forces(motion: Array, constants: Array, row: Array, memory: Array, force: Array) -> float:
-    lost = 0.0
-    for i in range(len(motion)):
-        c = constants[i]
-        u, v, f, components = int(c[0]), int(c[1]), int(c[2]), int(c[3])
-        y = deflection_size(motion[i], u, components)
-        spring = secant_at(c[int(c[_CURVE]) :], y) * c[_LENGTH]
-        time, _ = ratio_at(c[int(c[_DASHPOT]) :], y)
-        dashpot = spring * time + c[_CONSTANT]
-        force[i] = 0.0
-        for j in range(components):
-            force[i, f + j] = -spring * motion[i, u + j] - dashpot * motion[i, v + j]
-            lost += dashpot * motion[i, v + j] ** 2
-    return lost
+class _SpringKernels(NamedTuple):
+    force: ExchangeableKernel
+    tangent: ExchangeableKernel
+    energy: ExchangeableKernel
 
 
-@tangent_kernel
-def _tangents(motion: Array, constants: Array, row: Array, memory: Array, blocks: Array) -> None:
-    for i in range(len(motion)):
-        c = constants[i]
-        u, v, components = int(c[0]), int(c[1]), int(c[3])
-        stiffness, damping, place = int(c[4]), int(c[5]), int(c[6])
-        y = deflection_size(motion[i], u, components)
-        secant, tangent = curve_at(c[int(c[_CURVE]) :], y)
-        time, slope = ratio_at(c[int(c[_DASHPOT]) :], y)
-        spring = secant * c[_LENGTH]
-        by_size = (tangent * c[_LENGTH] - spring) / y if y > 0 else 0.0
-        dashpot_by_size = by_size * time + spring * slope
-        for j in range(components):
-            for k in range(components):
-                along = motion[i, u + k] / y if y > 0 else 0.0
-                blocks[i, stiffness, place + j, place + k] = (
-                    -(motion[i, u + j] * by_size + motion[i, v + j] * dashpot_by_size) * along
-                )
-            blocks[i, stiffness, place + j, place + j] -= spring
-            blocks[i, damping, place + j, place + j] = -spring * time - c[_CONSTANT]
+@cache
+def _spring_kernels(law: type[SoilCurve]) -> _SpringKernels:
+    """Kernels of springs whose curves have a law."""
+    secant_at, tangent_at, energy_at, source = law_functions(law)
 
+    @force_kernel
+    def spring_forces(
+        motion: Array, constants: Array, time_inputs: Array, memory: Array, force: Array
+    ) -> float:
+        _source = source
+        power = 0.0
+        for i in range(len(motion)):
+            c = constants[i]
+            u, v, f, components = int(c[DEFLECTION]), int(c[RATE]), int(c[FORCE]), int(c[SIZE])
+            y = deflection_size(motion[i], u, components)
+            curve = _DASHPOT + 1 + 2 * int(c[_DASHPOT])
+            spring = secant_at(c[curve:], y) * c[_LENGTH]
+            time, _ = ratio_at(c[_DASHPOT:], y)
+            dashpot = spring * time + c[CONSTANT_DASHPOT]
+            for j in range(6):
+                force[i, j] = 0.0
+            for j in range(components):
+                force[i, f + j] = -spring * motion[i, u + j] - dashpot * motion[i, v + j]
+                power += dashpot * motion[i, v + j] ** 2
+        return power
 
-@energy_kernel
-def _energy(motion: Array, constants: Array, memory: Array) -> float:
-    energy = 0.0
-    for i in range(len(motion)):
-        c = constants[i]
-        y = deflection_size(motion[i], int(c[0]), int(c[3]))
-        energy += c[_LENGTH] * curve_energy(c[int(c[_CURVE]) :], y)
-    return energy
+    @tangent_kernel
+    def spring_tangents(
+        motion: Array, constants: Array, time_inputs: Array, memory: Array, blocks: Array
+    ) -> None:
+        _source = source
+        for i in range(len(motion)):
+            c = constants[i]
+            u, v, components = int(c[DEFLECTION]), int(c[RATE]), int(c[SIZE])
+            stiffness, damping, first = int(c[STIFFNESS]), int(c[DAMPING]), int(c[FIRST])
+            y = deflection_size(motion[i], u, components)
+            curve = _DASHPOT + 1 + 2 * int(c[_DASHPOT])
+            spring = secant_at(c[curve:], y) * c[_LENGTH]
+            time, slope = ratio_at(c[_DASHPOT:], y)
+            by_size = (tangent_at(c[curve:], y) * c[_LENGTH] - spring) / y if y > 0 else 0.0
+            dashpot_by_size = by_size * time + spring * slope
+            for j in range(components):
+                for k in range(components):
+                    along = motion[i, u + k] / y if y > 0 else 0.0
+                    blocks[i, stiffness, first + j, first + k] = (
+                        -(motion[i, u + j] * by_size + motion[i, v + j] * dashpot_by_size) * along
+                    )
+                blocks[i, stiffness, first + j, first + j] -= spring
+                blocks[i, damping, first + j, first + j] = -spring * time - c[CONSTANT_DASHPOT]
+
+    @energy_kernel
+    def spring_energy(motion: Array, constants: Array, memory: Array) -> float:
+        _source = source
+        energy = 0.0
+        for i in range(len(motion)):
+            c = constants[i]
+            y = deflection_size(motion[i], int(c[DEFLECTION]), int(c[SIZE]))
+            curve = _DASHPOT + 1 + 2 * int(c[_DASHPOT])
+            energy += c[_LENGTH] * energy_at(c[curve:], y)
+        return energy
+
+    return _SpringKernels(spring_forces, spring_tangents, spring_energy)
 
 
 @dataclass(frozen=True, eq=False)
-class SoilSprings(KernelLoad):
+class SoilSprings(GroupedLoad):
     """Springs and dashpots; the force opposes the vector of the deflection.
 
     F = -K_s(y) u - C_s v with y = |u| and K_s = p(y) l_s / y (Rahman et al., MECC 2025, Eq. 6);
@@ -138,38 +178,69 @@ class SoilSprings(KernelLoad):
     Attributes
     ----------
     name : short, unique in a system
-    direction : what is resisted; for rotations read moment for force
+    component : what is resisted; for rotations read moment for force
     height : (n,) heights of the nodes in m
-    tributary_length : (n,) length of pile that each spring stands for, l_s, in m; 1 at the toe
+    tributary_length : (n,) length of pile of each spring, l_s, in m; 1 at the toe
     curves : resistance per length over deflection
     dashpot : beside each spring
     """
 
     name: str
-    direction: Direction
+    component: SpringComponent
     height: Array
     tributary_length: Array
     curves: SoilCurves
     dashpot: Dashpot
 
-    force_kernel = _forces
-    tangent_kernel = _tangents
-    energy_kernel = _energy
+    moves_with_ground: ClassVar[bool] = True
+
+    @cached_property
+    def groups(self) -> tuple[tuple[Indices, KernelLoad], ...]:
+        """Nodes whose curves have the same law, with their springs."""
+        return tuple((nodes, self._of_law(nodes, curves)) for nodes, curves in self.curves.groups)
+
+    def _of_law(self, nodes: Indices, curves: SoilCurve) -> KernelLoad:
+        parts = self.height[nodes], self.tributary_length[nodes]
+        return SpringsOfLaw(self.name, self.component, *parts, curves, self.dashpot)
+
+
+@dataclass(frozen=True, eq=False)
+class SpringsOfLaw(KernelLoad):
+    """Those of :class:`SoilSprings` whose curves have one law."""
+
+    name: str
+    component: SpringComponent
+    height: Array
+    tributary_length: Array
+    curves: SoilCurve
+    dashpot: Dashpot
+
+    moves_with_ground: ClassVar[bool] = True
+
+    @property
+    def force_kernel(self) -> ExchangeableKernel:
+        return _spring_kernels(type(self.curves)).force
+
+    @property
+    def tangent_kernel(self) -> ExchangeableKernel:
+        return _spring_kernels(type(self.curves)).tangent
+
+    @property
+    def energy_kernel(self) -> ExchangeableKernel:
+        return _spring_kernels(type(self.curves)).energy
 
     @cached_property
     def constants(self) -> Array:
-        return spring_constants(self.direction, self.tributary_length, self.curves, self.dashpot)
-
-
-def spring_constants(
-    direction: Direction, length: Array, curves: SoilCurves, dashpot: Dashpot
-) -> Array:
-    """(n, c) constants of springs at n nodes; see ``_LENGTH`` and the others."""
-    n = len(length)
-    initial = curves.secant(np.zeros(n)) * length * dashpot.initial_time
-    begin = len(direction.numbers) + 4
-    places = [begin, begin + len(dashpot.numbers)]
-    head = np.concatenate([direction.numbers, np.zeros(2), places])
-    rows = np.tile(np.concatenate([head, dashpot.numbers]), (n, 1))
-    rows[:, _LENGTH], rows[:, _CONSTANT] = length, initial
-    return np.hstack([rows, curves.numbers])
+        n, length = len(self.height), self.tributary_length
+        initial = np.zeros(n)
+        if self.dashpot.initial_time:  # without it nothing need be compiled for the secant
+            initial = self.curves.secant(np.zeros(n)) * length * self.dashpot.initial_time
+        return np.column_stack(
+            [
+                np.tile(self.component.columns, (n, 1)),
+                length,
+                initial,
+                np.tile(self.dashpot.table, (n, 1)),
+                self.curves.parameters,
+            ]
+        )

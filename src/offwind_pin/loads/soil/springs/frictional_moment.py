@@ -8,67 +8,96 @@ what it takes counts as work.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 
 from offwind_pin.base.definition import Array
+from offwind_pin.base.kernels import ExchangeableKernel
 from offwind_pin.loads.point_load import (
     DISPLACEMENT,
     MOMENT_BY_POSITION,
     MOMENT_BY_TURN,
     TURN,
+    GroupedLoad,
     KernelLoad,
     force_kernel,
     tangent_kernel,
 )
-from offwind_pin.loads.soil.curves.laws import SoilCurves, curve_at
+from offwind_pin.loads.soil.curves.soil_curve import (
+    Indices,
+    SoilCurve,
+    SoilCurves,
+    law_functions,
+)
 from offwind_pin.loads.soil.springs.elastic import deflection_size
 
-_LENGTH, _LEVER, _CURVE = range(3)
-"""Columns of a node's constants: tributary length, and where the numbers of the lever's and of the
-lateral curve begin."""
+_LENGTH, _LEVER_SIZE, _LEVER = range(3)
+"""Columns of a node's constants: tributary length, number of the lever's parameters, and from the
+last on these parameters, with those of the lateral curve behind them."""
 
-_U, _R = DISPLACEMENT.start, TURN.start
-
-
-@force_kernel
-def _forces(motion: Array, constants: Array, row: Array, memory: Array, force: Array) -> float:
-    for i in range(len(motion)):
-        c = constants[i]
-        y, angle = deflection_size(motion[i], _U, 2), deflection_size(motion[i], _R, 2)
-        secant, _ = curve_at(c[int(c[_CURVE]) :], y)
-        lever, _ = curve_at(c[int(c[_LEVER]) :], angle)
-        stiffness = c[_LENGTH] * secant * y * lever
-        force[i] = 0.0
-        for j in range(2):
-            force[i, 3 + j] = -stiffness * motion[i, _R + j]
-    return 0.0
+_U, _R, _MOMENT = DISPLACEMENT.start, TURN.start, 3
 
 
-@tangent_kernel
-def _tangents(motion: Array, constants: Array, row: Array, memory: Array, blocks: Array) -> None:
-    for i in range(len(motion)):
-        c = constants[i]
-        y, angle = deflection_size(motion[i], _U, 2), deflection_size(motion[i], _R, 2)
-        secant, tangent = curve_at(c[int(c[_CURVE]) :], y)
-        lever, slope = curve_at(c[int(c[_LEVER]) :], angle)
-        for j in range(2):
-            turn = motion[i, _R + j]
-            for k in range(2):
-                if y > 0:
-                    along = motion[i, _U + k] / y
-                    by_size = -c[_LENGTH] * tangent * lever * turn
-                    blocks[i, MOMENT_BY_POSITION, j, k] = by_size * along
-                if angle > 0:
-                    along = motion[i, _R + k] / angle
-                    by_angle = -c[_LENGTH] * secant * y * (slope - lever) / angle * turn
-                    blocks[i, MOMENT_BY_TURN, j, k] = by_angle * along
-            blocks[i, MOMENT_BY_TURN, j, j] -= c[_LENGTH] * secant * y * lever
+class _FrictionKernels(NamedTuple):
+    force: ExchangeableKernel
+    tangent: ExchangeableKernel
+
+
+@cache
+def _friction_kernels(lateral: type[SoilCurve], lever: type[SoilCurve]) -> _FrictionKernels:
+    """Kernels of moments whose lateral curves and levers have a law each."""
+    secant_at, tangent_at, _, lateral_source = law_functions(lateral)
+    lever_at, lever_tangent_at, _, lever_source = law_functions(lever)
+
+    @force_kernel
+    def friction_moments(
+        motion: Array, constants: Array, time_inputs: Array, memory: Array, force: Array
+    ) -> float:
+        _source = lateral_source + lever_source
+        for i in range(len(motion)):
+            c = constants[i]
+            curve = _LEVER + int(c[_LEVER_SIZE])
+            y, angle = deflection_size(motion[i], _U, 2), deflection_size(motion[i], _R, 2)
+            stiffness = c[_LENGTH] * secant_at(c[curve:], y) * y * lever_at(c[_LEVER:curve], angle)
+            for j in range(_MOMENT):
+                force[i, j] = 0.0
+            for j in range(2):
+                force[i, _MOMENT + j] = -stiffness * motion[i, _R + j]
+            force[i, _MOMENT + 2] = 0.0
+        return 0.0
+
+    @tangent_kernel
+    def friction_tangents(
+        motion: Array, constants: Array, time_inputs: Array, memory: Array, blocks: Array
+    ) -> None:
+        _source = lateral_source + lever_source
+        for i in range(len(motion)):
+            c = constants[i]
+            curve = _LEVER + int(c[_LEVER_SIZE])
+            y, angle = deflection_size(motion[i], _U, 2), deflection_size(motion[i], _R, 2)
+            secant, tangent = secant_at(c[curve:], y), tangent_at(c[curve:], y)
+            lever = lever_at(c[_LEVER:curve], angle)
+            slope = lever_tangent_at(c[_LEVER:curve], angle)
+            for j in range(2):
+                turn = motion[i, _R + j]
+                for k in range(2):
+                    if y > 0:
+                        along = motion[i, _U + k] / y
+                        by_size = -c[_LENGTH] * tangent * lever * turn
+                        blocks[i, MOMENT_BY_POSITION, j, k] = by_size * along
+                    if angle > 0:
+                        along = motion[i, _R + k] / angle
+                        by_angle = -c[_LENGTH] * secant * y * (slope - lever) / angle * turn
+                        blocks[i, MOMENT_BY_TURN, j, k] = by_angle * along
+                blocks[i, MOMENT_BY_TURN, j, j] -= c[_LENGTH] * secant * y * lever
+
+    return _FrictionKernels(friction_moments, friction_tangents)
 
 
 @dataclass(frozen=True, eq=False)
-class FrictionalMoment(KernelLoad):
+class FrictionalMoment(GroupedLoad):
     """Moments m = |p(y)| c(psi) at the nodes, against the rotation about horizontal axes.
 
     Attributes
@@ -85,12 +114,42 @@ class FrictionalMoment(KernelLoad):
     lever: SoilCurves
     name: str = "soil_friction"
 
-    force_kernel = _forces
-    tangent_kernel = _tangents
+    moves_with_ground: ClassVar[bool] = True
+
+    @cached_property
+    def groups(self) -> tuple[tuple[Indices, KernelLoad], ...]:
+        """Nodes whose curves, and whose levers, have the same law, with their moments."""
+        found = []
+        for members, lateral in self.lateral.groups:
+            for places, lever in self.lever.at(members).groups:
+                nodes = members[places]
+                parts = self.height[nodes], self.tributary_length[nodes]
+                found.append((nodes, FrictionOfLaws(*parts, lateral.at(places), lever, self.name)))
+        return tuple(found)
+
+
+@dataclass(frozen=True, eq=False)
+class FrictionOfLaws(KernelLoad):
+    """Those of :class:`FrictionalMoment` whose curves and levers have one law each."""
+
+    height: Array
+    tributary_length: Array
+    lateral: SoilCurve
+    lever: SoilCurve
+    name: str
+
+    moves_with_ground: ClassVar[bool] = True
+
+    @property
+    def force_kernel(self) -> ExchangeableKernel:
+        return _friction_kernels(type(self.lateral), type(self.lever)).force
+
+    @property
+    def tangent_kernel(self) -> ExchangeableKernel:
+        return _friction_kernels(type(self.lateral), type(self.lever)).tangent
 
     @cached_property
     def constants(self) -> Array:
-        n, begin = len(self.height), 3
-        places = [begin, begin + self.lever.numbers.shape[1]]
-        head = np.column_stack([self.tributary_length, np.tile(places, (n, 1))])
-        return np.hstack([head, self.lever.numbers, self.lateral.numbers])
+        lever = self.lever.parameters
+        size = np.full(len(lever), float(lever.shape[1]))
+        return np.column_stack([self.tributary_length, size, lever, self.lateral.parameters])

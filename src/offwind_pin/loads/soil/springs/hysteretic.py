@@ -9,24 +9,36 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 
 from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError
-from offwind_pin.base.kernels import kernel
+from offwind_pin.base.kernels import inner
 from offwind_pin.loads.point_load import (
+    KernelLoad,
     commit_kernel,
     energy_kernel,
     force_kernel,
     tangent_kernel,
 )
-from offwind_pin.loads.soil.curves.laws import SoilCurves
-from offwind_pin.loads.soil.springs.elastic import SoilSprings
+from offwind_pin.loads.soil.curves.soil_curve import Indices, SoilCurves
+from offwind_pin.loads.soil.springs.elastic import (
+    DAMPING,
+    DEFLECTION,
+    FIRST,
+    FORCE,
+    RATE,
+    SIZE,
+    STIFFNESS,
+    SoilSprings,
+    SpringComponent,
+)
 
 _DASHPOT, _SLIDERS = 7, 8
-"""Columns of a node's constants after its direction: constant dashpot coefficient, and number of
-sliders; their stiffnesses and then their yield deflections follow."""
+"""Columns of a node's constants after those of its component: coefficient of the constant dashpot,
+and number of sliders; their stiffnesses and then their yield deflections follow."""
 
 _ROUNDING = 1e-10
 """Relative excess of a squared yield deflection below which a slider has not yielded."""
@@ -36,7 +48,7 @@ _SEARCHED = np.geomspace(1e-9, 10.0, 2001)
 """Deflections in m or rad among which those two are found."""
 
 
-@kernel
+@inner
 def _stretch(
     values: Array, u: int, components: int, memory: Array, first: int
 ) -> tuple[float, float, float]:
@@ -49,11 +61,13 @@ def _stretch(
 
 
 @force_kernel
-def _forces(motion: Array, constants: Array, row: Array, memory: Array, force: Array) -> float:
-    lost, first = 0.0, 0
+def _forces(
+    motion: Array, constants: Array, time_inputs: Array, memory: Array, force: Array
+) -> float:
+    power, first = 0.0, 0
     for i in range(len(motion)):
         c = constants[i]
-        u, v, f, components = int(c[0]), int(c[1]), int(c[2]), int(c[3])
+        u, v, f, components = int(c[DEFLECTION]), int(c[RATE]), int(c[FORCE]), int(c[SIZE])
         sliders = int(c[_SLIDERS])
         along_x = along_y = 0.0
         for j in range(sliders):
@@ -64,40 +78,43 @@ def _forces(motion: Array, constants: Array, row: Array, memory: Array, force: A
             along_x += pull * x
             along_y += pull * y
             first += components
-        force[i] = 0.0
+        for j in range(6):
+            force[i, j] = 0.0
         force[i, f] = -along_x
         if components == 2:
             force[i, f + 1] = -along_y
         for j in range(components):
             force[i, f + j] -= c[_DASHPOT] * motion[i, v + j]
-            lost += c[_DASHPOT] * motion[i, v + j] ** 2
-    return lost
+            power += c[_DASHPOT] * motion[i, v + j] ** 2
+    return power
 
 
 @tangent_kernel
-def _tangents(motion: Array, constants: Array, row: Array, memory: Array, blocks: Array) -> None:
+def _tangents(
+    motion: Array, constants: Array, time_inputs: Array, memory: Array, blocks: Array
+) -> None:
     first = 0
     for i in range(len(motion)):
         c = constants[i]
-        u, components, sliders = int(c[0]), int(c[3]), int(c[_SLIDERS])
-        stiffness, damping, place = int(c[4]), int(c[5]), int(c[6])
+        u, components, sliders = int(c[DEFLECTION]), int(c[SIZE]), int(c[_SLIDERS])
+        stiffness, damping, axis = int(c[STIFFNESS]), int(c[DAMPING]), int(c[FIRST])
         block = blocks[i, stiffness]
         for j in range(sliders):
             x, y, square = _stretch(motion[i], u, components, memory, first)
             pull, limit = c[_SLIDERS + 1 + j], c[_SLIDERS + 1 + sliders + j]
             first += components
             if square <= limit * limit * (1 + _ROUNDING):
-                block[place, place] -= pull
+                block[axis, axis] -= pull
                 if components == 2:
-                    block[place + 1, place + 1] -= pull
+                    block[axis + 1, axis + 1] -= pull
             elif components == 2:  # yielding, it can still turn
                 across = pull * limit / square**1.5
-                block[place, place] -= across * y * y
-                block[place, place + 1] += across * x * y
-                block[place + 1, place] += across * x * y
-                block[place + 1, place + 1] -= across * x * x
+                block[axis, axis] -= across * y * y
+                block[axis, axis + 1] += across * x * y
+                block[axis + 1, axis] += across * x * y
+                block[axis + 1, axis + 1] -= across * x * x
         for j in range(components):
-            blocks[i, damping, place + j, place + j] = -c[_DASHPOT]
+            blocks[i, damping, axis + j, axis + j] = -c[_DASHPOT]
 
 
 @energy_kernel
@@ -105,7 +122,7 @@ def _energy(motion: Array, constants: Array, memory: Array) -> float:
     energy, first = 0.0, 0
     for i in range(len(motion)):
         c = constants[i]
-        u, components, sliders = int(c[0]), int(c[3]), int(c[_SLIDERS])
+        u, components, sliders = int(c[DEFLECTION]), int(c[SIZE]), int(c[_SLIDERS])
         for j in range(sliders):
             _, _, square = _stretch(motion[i], u, components, memory, first)
             limit = c[_SLIDERS + 1 + sliders + j]
@@ -115,36 +132,64 @@ def _energy(motion: Array, constants: Array, memory: Array) -> float:
 
 
 @commit_kernel
-def _commit(motion: Array, constants: Array, row: Array, memory: Array) -> float:
-    heat, first = 0.0, 0
+def _commit(motion: Array, constants: Array, time_inputs: Array, memory: Array) -> float:
+    dissipated, first = 0.0, 0
     for i in range(len(motion)):
         c = constants[i]
-        u, components, sliders = int(c[0]), int(c[3]), int(c[_SLIDERS])
+        u, components, sliders = int(c[DEFLECTION]), int(c[SIZE]), int(c[_SLIDERS])
         for j in range(sliders):
             x, y, square = _stretch(motion[i], u, components, memory, first)
             limit = c[_SLIDERS + 1 + sliders + j]
             if square > limit * limit * (1 + _ROUNDING):
                 size = np.sqrt(square)
                 slip = 1 - limit / size
-                heat += c[_SLIDERS + 1 + j] * limit * slip * size
+                dissipated += c[_SLIDERS + 1 + j] * limit * slip * size
                 memory[first] += slip * x
                 if components == 2:
                     memory[first + 1] += slip * y
             first += components
-    return heat
+    return dissipated
 
 
 @dataclass(frozen=True, eq=False)
 class HystereticSprings(SoilSprings):
     """Springs whose curves are the backbones of parallel sliders.
 
-    A constant dashpot may stand beside them.
+    A constant dashpot may act beside them.
 
     sliders : number for each spring
     """
 
     sliders: int = 20
 
+    @cached_property
+    def groups(self) -> tuple[tuple[Indices, KernelLoad], ...]:
+        """All nodes: sliders are the same whatever the law of their backbone."""
+        n, length = len(self.height), self.tributary_length[:, None]
+        stiffness, limit = sliders_of(self.curves, self.sliders, self.name)
+        initial = self.curves.secant(np.zeros(n)) * self.tributary_length
+        dashpot = initial * self.dashpot.initial_time
+        whole = SpringSliders(
+            self.name, self.component, self.height, length * stiffness, limit, dashpot
+        )
+        return ((np.arange(n), whole),)
+
+
+@dataclass(frozen=True, eq=False)
+class SpringSliders(KernelLoad):
+    """The sliders of :class:`HystereticSprings`.
+
+    stiffness, limit : (n, s) in N/m and m, or N m/rad and rad; dashpot : (n,) in N s/m or N m s/rad
+    """
+
+    name: str
+    component: SpringComponent
+    height: Array
+    stiffness: Array
+    limit: Array
+    dashpot: Array
+
+    moves_with_ground: ClassVar[bool] = True
     force_kernel = _forces
     tangent_kernel = _tangents
     energy_kernel = _energy
@@ -152,18 +197,15 @@ class HystereticSprings(SoilSprings):
 
     @cached_property
     def constants(self) -> Array:
-        n, length = len(self.height), self.tributary_length[:, None]
-        stiffness, limit = sliders_of(self.curves, self.sliders, self.name)
-        initial = self.curves.secant(np.zeros(n)) * self.tributary_length
-        head = np.tile(self.direction.numbers, (n, 1))
-        count = np.full(n, float(self.sliders))
-        dashpot = initial * self.dashpot.initial_time
-        return np.column_stack([head, dashpot, count, length * stiffness, limit])
+        n, sliders = self.stiffness.shape
+        head = np.tile(self.component.columns, (n, 1))
+        count = np.full(n, float(sliders))
+        return np.column_stack([head, self.dashpot, count, self.stiffness, self.limit])
 
     @property
     def memory_size(self) -> int:
         """Slips of the sliders."""
-        return len(self.height) * self.sliders * self.direction.components
+        return self.stiffness.size * self.component.size
 
 
 def sliders_of(curves: SoilCurves, count: int, name: str = "soil") -> tuple[Array, Array]:
@@ -181,7 +223,7 @@ def sliders_of(curves: SoilCurves, count: int, name: str = "soil") -> tuple[Arra
     ------
     InputError : a curve that falls, or stiffens, with deflection
     """
-    n = len(curves.numbers)
+    n = len(curves)
     stiffness, limit = np.zeros((n, count)), np.full((n, count), np.inf)
     resistance = np.array([curves.resistance(np.full(n, y)) for y in _SEARCHED])
     for i, ultimate in enumerate(curves.ultimate):

@@ -1,22 +1,15 @@
-"""An earthquake as a case file gives it, what acts, and what is told about it."""
+"""An earthquake as a load case names it: files of one record, or one for each of several levels."""
 
 from __future__ import annotations
 
-import logging
-from dataclasses import dataclass
-from pathlib import Path
 from typing import Annotated
 
 import numpy as np
 from pydantic import Field, model_validator
 
-from offwind_pin.base.definition import Array, Definition, NonNegative, Number
+from offwind_pin.base.definition import Definition, Direction, File, NonNegative, Number, key
 from offwind_pin.base.errors import InputError
-from offwind_pin.loads.earthquake.ground_motion import (
-    Baseline,
-    GroundMotion,
-    ground_motion_cautions,
-)
+from offwind_pin.loads.earthquake.ground_motion import Baseline, GroundMotion
 from offwind_pin.loads.earthquake.records import (
     Accelerogram,
     Axis,
@@ -26,16 +19,14 @@ from offwind_pin.loads.earthquake.records import (
     unit_cautions,
 )
 
-_log = logging.getLogger(__name__)
-
 
 class RecordFile(Definition):
     """One accelerogram: columns of a file, or AT2 files by axis."""
 
-    file: Path | None = None
+    file: File | None = None
     acceleration_unit: Unit | None = None
     components: Annotated[tuple[Axis, ...], Field(min_length=1, max_length=3)] | None = None
-    at2: Annotated[dict[Axis, Path], Field(min_length=1)] | None = None
+    at2: Annotated[dict[Axis, File], Field(min_length=1)] | None = None
 
     @model_validator(mode="after")
     def _one_record(self) -> RecordFile:
@@ -44,44 +35,51 @@ class RecordFile(Definition):
 
     def _check_files(self) -> None:
         if (self.file is None) == (self.at2 is None):
-            raise ValueError("give either file (columns of numbers) or at2 (files by axis)")
+            raise ValueError(
+                "the record is given twice or not at all; give either file (columns of numbers) or "
+                "at2 (files by axis)"
+            )
         if self.at2 is not None and (self.acceleration_unit or self.components):
             raise ValueError("at2 files are in g, by axis; leave acceleration_unit and components")
         if self.file is not None and not (self.acceleration_unit and self.components):
             raise ValueError(
-                "a file needs its acceleration_unit (m_per_s2, cm_per_s2 or g) and components, the "
-                "axes of its columns after the time's, such as [x, y, z]"
+                "the file's unit or axes are missing; give acceleration_unit (m_per_s2, cm_per_s2 "
+                "or g) and components, the axes of its columns after the time's, such as [x, y, z]"
             )
 
-    def read(self, folder: Path) -> tuple[Accelerogram, list[str]]:
-        """The record, its relative paths starting at a folder, and cautions about its unit."""
+    def read(self) -> tuple[Accelerogram, list[str]]:
+        """The record, and cautions about its unit."""
         if self.at2 is not None:
-            paths: dict[Axis, Path] = {axis: folder / path for axis, path in self.at2.items()}
-            record = read_at2_components(paths)
+            record = read_at2_components(self.at2)
             return record, unit_cautions(record.acceleration, "g")
         if self.file is None or self.acceleration_unit is None or self.components is None:
             raise RuntimeError("a record without a file was not refused")
-        record = read_columns(folder / self.file, self.acceleration_unit, self.components)
+        record = read_columns(self.file, self.acceleration_unit, self.components)
         return record, unit_cautions(record.acceleration, self.acceleration_unit)
 
 
 class LevelRecord(RecordFile):
     """The accelerogram at a height."""
 
-    z: Number = Field(alias="z_m")
+    z: Number = key("z_m")
 
 
 class Earthquake(RecordFile):
     """Motion of the ground: one record, or one at each of several levels.
 
-    scale : multiplies accelerations; direction : the record is turned about z, in degrees from x
-    towards y; start : when the record's time 0 is; baseline : see :class:`GroundMotion`
+    Attributes
+    ----------
+    levels : records by height, in place of a single one
+    scale : float, multiplies accelerations
+    direction_deg : float, degrees from +x towards +y, by which the record is rotated about z
+    start : float, s, when the record's time 0 is
+    baseline : see :class:`GroundMotion`
     """
 
     levels: Annotated[tuple[LevelRecord, ...], Field(min_length=2)] | None = None
     scale: Annotated[Number, Field(ge=-100, le=100)] = 1.0
-    direction: Annotated[Number, Field(ge=-360, le=360)] = Field(alias="direction_deg", default=0.0)
-    start: NonNegative = Field(alias="start_s", default=0.0)
+    direction_deg: Direction = 0.0
+    start: NonNegative = key("start_s", default=0.0)
     baseline: Baseline = "none"
 
     def _check_files(self) -> None:
@@ -92,7 +90,7 @@ class Earthquake(RecordFile):
         if self.scale == 0:
             raise ValueError("a scale of 0 leaves no earthquake; leave it out instead")
 
-    def ground_motion(self, folder: Path) -> tuple[GroundMotion, list[str]]:
+    def ground_motion(self) -> tuple[GroundMotion, list[str]]:
         """What moves the ground, and cautions about the units.
 
         Raises
@@ -100,21 +98,19 @@ class Earthquake(RecordFile):
         InputError : a file that cannot be used, or levels that differ in their times
         """
         if self.levels is None:
-            record, cautions = self.read(folder)
+            record, cautions = self.read()
             motion = GroundMotion(
                 record.time, record.acceleration, None, self.baseline, record.origin
             )
         else:
-            motion, cautions = self._by_level(self.levels, folder)
-        angle = np.radians(self.direction)
+            motion, cautions = self._by_level(self.levels)
+        angle = np.radians(self.direction_deg)
         changed = motion.scaled(self.scale).later(self.start)
         return (changed.turned(angle) if angle else changed), cautions
 
-    def _by_level(
-        self, levels: tuple[LevelRecord, ...], folder: Path
-    ) -> tuple[GroundMotion, list[str]]:
+    def _by_level(self, levels: tuple[LevelRecord, ...]) -> tuple[GroundMotion, list[str]]:
         rising = sorted(levels, key=lambda level: level.z)
-        read = [level.read(folder) for level in rising]
+        read = [level.read() for level in rising]
         first = read[0][0]
         for level, (record, _) in zip(rising, read, strict=True):
             same = len(record.time) == len(first.time)
@@ -134,48 +130,3 @@ class Earthquake(RecordFile):
             "; ".join(f"z = {a.z:g} m: {r.origin}" for a, (r, _) in zip(rising, read, strict=True)),
         )
         return motion, [caution for _, found in read for caution in found]
-
-
-@dataclass(frozen=True, eq=False)
-class Shaking:
-    """An earthquake that acts in a case.
-
-    Attributes
-    ----------
-    motion : of the ground
-    cautions : what looks wrong with it
-    gravity : in m/s2, for the Arias intensity
-    level : that is reported, the highest
-    """
-
-    motion: GroundMotion
-    cautions: list[str]
-    gravity: float
-
-    @staticmethod
-    def of(
-        earthquake: Earthquake, folder: Path, gravity: float, dt: float, duration: float
-    ) -> Shaking:
-        """Read what a case asks for; cautions go to the log as well, by here and by the simulation.
-
-        Raises
-        ------
-        InputError : a record that cannot be used, or that begins after the end
-        """
-        motion, cautions = earthquake.ground_motion(folder)
-        for caution in cautions:
-            _log.warning("earthquake: %s", caution)
-        cautions += ground_motion_cautions(motion, dt, duration)
-        return Shaking(motion, cautions, gravity)
-
-    @property
-    def step(self) -> float:
-        """Interval in s at which the record is looked at: its own, or its smallest."""
-        return float(np.min(np.diff(self.motion.time)))
-
-    @property
-    def sampled(self) -> Array:
-        """(n, 3, 3) displacement, velocity, acceleration of the highest level, evenly sampled."""
-        first, last = self.motion.time[[0, -1]]
-        count = max(2, 1 + round((last - first) / self.step))
-        return self.motion.motion(np.minimum(first + self.step * np.arange(count), last))[:, -1]

@@ -1,0 +1,118 @@
+"""Families of soil reactions: how a layer of the ground becomes curves at the nodes of a pile."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import Any, ClassVar, Generic, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from offwind_pin.base.definition import Array
+from offwind_pin.base.errors import InputError
+from offwind_pin.definitions.soil.layers import Loading, SoilLayer
+from offwind_pin.definitions.soil.registry import register_layer
+from offwind_pin.loads.soil.curves.soil_curve import SoilCurve, SoilCurves
+from offwind_pin.loads.soil.soil_profile import PileNodes
+
+Kind = TypeVar("Kind", bound=SoilLayer)
+
+API_DIAMETER = 2.0
+"""Largest pile diameter in m of the tests behind the curves of API and of Reese and Welch."""
+
+
+@dataclass(frozen=True, eq=False)
+class RockingCurves:
+    """Distributed moment over the rotation of the pile.
+
+    Attributes
+    ----------
+    curves : m in N m/m over psi in rad; m / abs(p) in m where ``by_lateral``
+    by_lateral : (n,) whether the curve is to be multiplied by the lateral resistance abs(p) in N/m
+    """
+
+    curves: SoilCurves
+    by_lateral: NDArray[np.bool_]
+
+
+class SoilFamily(ABC, Generic[Kind]):
+    """A family of curves: base class of the package's and of a user's own.
+
+    Stresses are the vertical effective ones in Pa at the nodes.
+    """
+
+    layer: ClassVar[type[SoilLayer]]
+    """The definition that it makes curves of."""
+
+    @abstractmethod
+    def lateral(self, layer: Kind, nodes: PileNodes, stress: Array, loading: Loading) -> SoilCurve:
+        """p in N/m over y in m at the nodes of a layer.
+
+        Raises
+        ------
+        InputError : no such curves for this pile
+        """
+
+    def rocking(self, layer: Kind, nodes: PileNodes, stress: Array) -> RockingCurves | None:
+        """Distributed moment at the nodes of a layer, or None."""
+        return None
+
+    def base_shear(self, layer: Kind, toe: PileNodes, stress: Array) -> SoilCurve | None:
+        """H in N over the horizontal displacement in m at the toe, or None."""
+        return None
+
+    def base_moment(self, layer: Kind, toe: PileNodes, stress: Array) -> SoilCurve | None:
+        """M in N m over the rotation in rad at the toe, or None."""
+        return None
+
+    def cautions(self, layer: Kind, nodes: PileNodes) -> list[str]:
+        """Sentences about nodes outside what the curves were derived for."""
+        return []
+
+
+_families: dict[type[SoilLayer], SoilFamily[Any]] = {}
+
+
+def register_family(family: SoilFamily[Any]) -> None:
+    """Use a family for the layers that it is for; the layer becomes known to files as well.
+
+    Raises
+    ------
+    InputError : another kind of layer has the same name
+    """
+    register_layer(family.layer)
+    _families[family.layer] = family
+
+
+def family_of(layer: SoilLayer) -> SoilFamily[Any]:
+    """The family that makes curves of a layer.
+
+    Raises
+    ------
+    InputError : none is registered
+    """
+    if type(layer) not in _families:
+        raise InputError(
+            f"{layer.model} layer",
+            f"no family of curves for {type(layer).__name__}",
+            ", ".join(kind.__name__ for kind in _families),
+            "Register one with register_family.",
+        )
+    return _families[type(layer)]
+
+
+def diameter_cautions(layer: SoilLayer, nodes: PileNodes) -> list[str]:
+    """A sentence about a pile larger than those of the tests behind API's curves."""
+    largest = float(nodes.diameter.max())
+    if largest <= API_DIAMETER:
+        return []
+    return [
+        f"{layer_label(layer)}: the curves come from piles of at most {API_DIAMETER:g} m in "
+        f"diameter; this pile has {largest:g} m"
+    ]
+
+
+def layer_label(layer: SoilLayer) -> str:
+    """A layer as messages call it."""
+    return f"{layer.model} layer from {layer.top:g} m"
