@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
+    from offwind_pin.dynamics.compiled.pencil import CompiledPencil
     from offwind_pin.dynamics.reference.dense_pencil import DensePencil
 
 _FAMILY_OF_JOINT = {"px": "FA", "ry": "FA", "py": "SS", "rx": "SS", "rz": "T", "pz": "V"}
@@ -167,8 +168,7 @@ def modes(
     ----------
     n : number of modes
     about : static state; by default that under gravity alone
-    engine : what evaluates the equations: ``"compiled"`` or ``"pinocchio"``; the matrices of the
-        eigenproblem come from Pinocchio with either
+    engine : what evaluates the equations: ``"compiled"`` or ``"pinocchio"``
 
     Raises
     ------
@@ -242,7 +242,9 @@ def _damper_share(system: System, vectors: Array, work: Array) -> Array:
     return np.asarray(stored / work.sum(axis=0))
 
 
-def _separate_planes(system: System, linear: DensePencil, squares: Array, vectors: Array) -> Array:
+def _separate_planes(
+    system: System, linear: CompiledPencil | DensePencil, squares: Array, vectors: Array
+) -> Array:
     """Turn pairs of equal frequency so that one moves fore-aft and the other side-side.
 
     On a structure that is the same in every direction any two normal directions are modes.
