@@ -28,6 +28,8 @@ _MOSTLY = 0.5
 """Share of the potential energy in springs of tuned mass dampers that makes a mode theirs."""
 _EQUAL = 1e-6
 """Relative difference of squared frequencies below which two modes are one pair."""
+_STILL = 1e-9
+"""Motion of the axis over the largest joint displacement that is rounding."""
 _SHOWN = {"FA": 0, "SS": 1, "V": 2, "T": 5}
 
 
@@ -202,9 +204,11 @@ def modes(
     normalised = np.empty_like(shape)
     above_mudline = np.flatnonzero(height >= system.turbine.site.mudline - 1e-9)
     for i in range(n):
+        if np.abs(shape[i]).max() <= _STILL * np.abs(vectors[:, i]).max():
+            shape[i] = 0.0  # a damper on a clamped base moves nothing else
         shown = shape[i, :, _SHOWN[family[i]]]
         at = above_mudline[np.argmax(np.abs(shown[above_mudline]))]
-        size = float(shown[at]) or 1.0  # a damper on a clamped base moves nothing else
+        size = float(shown[at]) or 1.0
         normalised[i] = shape[i] * np.sign(size)
         vectors[:, i] *= np.sign(size)
         unit[i] = shape[i] / size
