@@ -82,8 +82,6 @@ def test_more_elements_than_pinocchio_s_memory(undamped: ow.Turbine) -> None:
     assert fine.tower_top_displacement[0] == pytest.approx(lean, rel=1e-3)
 
 
-WAVES = {"significant_height": 2.0, "peak_period": 10.0, "seed": 1, "repeat_period": 600.0}
-
 BAD_ARGUMENTS: dict[str, tuple[Callable[[ow.Turbine], object], str]] = {
     "stiffness rule": (
         lambda turbine: ow.build(turbine, "clamped", stiffness="flexibilty"),  # type: ignore[arg-type]
@@ -99,10 +97,6 @@ BAD_ARGUMENTS: dict[str, tuple[Callable[[ow.Turbine], object], str]] = {
     **{
         f"sea {sea}": (lambda turbine, s=sea: ow.build(turbine, "clamped", s), "sea")
         for sea in ("still_water", ow.StillWater, 1.25)
-    },
-    **{
-        f"waves {change}": (lambda turbine, c=change: ow.IrregularWaves(**(WAVES | c)), "waves")
-        for change in ({"repeat_period": 1.0}, {"seed": -1}, {"seed": 1.5}, {"peak_period": 0.0})
     },
     **{
         f"load history, {name}": (
