@@ -55,7 +55,6 @@ from offwind_pin.signal import read_accelerations as read_accelerations
 from offwind_pin.soil import Condensation as Condensation
 from offwind_pin.soil import DeflectionTarget as DeflectionTarget
 from offwind_pin.soil import FrequencyTarget as FrequencyTarget
-from offwind_pin.soil import Identification as Identification
 from offwind_pin.soil import Parameter as Parameter
 from offwind_pin.soil import Pushover as Pushover
 from offwind_pin.soil import ShapeTarget as ShapeTarget
