@@ -3,8 +3,11 @@
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from numpy.typing import NDArray
 
-from offwind_pin.solvers.eigen import natural_modes
+from offwind_pin.solvers.eigen import lowest_modes, natural_modes
+
+Array = NDArray[np.float64]
 
 N, MASS, SPRING = 12, 3.0, 50.0
 K = SPRING * (2 * np.eye(N) - np.eye(N, k=1) - np.eye(N, k=-1))
@@ -44,3 +47,42 @@ def test_unstable_structure_has_a_negative_square() -> None:
     """A column beyond its buckling load: omega^2 < 0, and the modes are still given."""
     squares, _ = natural_modes(K - 1.1 * np.linalg.eigvalsh(K)[0] * np.eye(N), M, 2)
     assert squares[0] < 0 < squares[1]
+
+
+class Springs:
+    """A large pencil of single oscillators, each frequency twice.
+
+    For the first ``times`` counts there seem to be so many modes more.
+    """
+
+    def __init__(self, more: int, times: int) -> None:
+        self.squares = np.repeat(np.arange(1.0, 51.0) ** 2, 2)
+        self.more, self.times = more, times
+
+    def mass_times(self, vectors: Array) -> Array:
+        return vectors
+
+    def symmetric_stiffness_times(self, vectors: Array) -> Array:
+        return (self.squares * vectors.T).T
+
+    def solve(self, rhs: Array) -> Array:
+        return rhs / self.squares
+
+    def below(self, square: float) -> int:
+        self.times -= 1
+        return int(np.sum(self.squares < square)) + (self.more if self.times >= 0 else 0)
+
+
+def test_pairs_by_lanczos() -> None:
+    """Both of every pair are found, and the vectors are orthonormal."""
+    squares, vectors = lowest_modes(Springs(0, 0), 100, 7)
+    assert_allclose(squares, [1, 1, 4, 4, 9, 9, 16], rtol=1e-10)
+    assert_allclose(vectors.T @ vectors, np.eye(7), atol=1e-10)
+
+
+def test_a_missed_mode_is_looked_for_again() -> None:
+    """While the law of inertia counts one more; it is not given up silently."""
+    squares, _ = lowest_modes(Springs(1, 2), 100, 7)
+    assert_allclose(squares, [1, 1, 4, 4, 9, 9, 16], rtol=1e-10)
+    with pytest.raises(np.linalg.LinAlgError, match="not found"):
+        lowest_modes(Springs(1, 100), 100, 7)

@@ -9,9 +9,9 @@ from helpers.numerics import fitted_order
 from numpy.typing import NDArray
 
 import offwind_pin as ow
-from offwind_pin.analysis import integrators
 from offwind_pin.analysis.integrators import GeneralizedAlpha
 from offwind_pin.loads.tower_top.load_history import TowerTopLoad
+from offwind_pin.solvers import generalized_alpha
 from offwind_pin.solvers.steps import FixedStep
 
 Array = NDArray[np.float64]
@@ -109,7 +109,7 @@ def test_default_tolerances_keep_the_order(system: ow.System) -> None:
 def test_a_first_order_scheme_is_seen(system: ow.System, monkeypatch: pytest.MonkeyPatch) -> None:
     """Negative control: by backward Euler the same channels converge with the step itself."""
     exact = reference(system, 1.0)
-    monkeypatch.setattr(integrators, "compiled_advance", compiled_backward_euler)
+    monkeypatch.setattr(generalized_alpha, "compiled_advance", compiled_backward_euler)
     for error in errors_by_step(system, exact, lambda dt: tight(dt, 1.0)):
         assert fitted_order(STEPS, error) == pytest.approx(0.95, abs=0.1)
         assert 0.01 < error[-1] < 0.1

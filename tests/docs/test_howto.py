@@ -89,11 +89,6 @@ def test_misspelt_key_of_the_page(
     assert "Did you mean 'diameter_m'?" in capsys.readouterr().err
 
 
-def test_push_by_hand() -> None:
-    """The page's own arithmetic."""
-    assert pytest.approx(37.9, abs=0.05) == 0.4 * 93 + 0.72
-
-
 def test_kilonewtons_are_guessed(folder: Path, run: Any, caplog: pytest.LogCaptureFixture) -> None:
     """Without the factor the log guesses, as the page says."""
     _follow("own_load_file", folder, run)

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from offwind_pin.analysis.integrators import Integrator
     from offwind_pin.analysis.static import StaticResult
     from offwind_pin.dynamics.compiled.chain import CompiledChain
+    from offwind_pin.dynamics.compiled.pencil import CompiledPencil
     from offwind_pin.dynamics.reference.dense_chain import DenseChain
     from offwind_pin.dynamics.reference.dense_pencil import DensePencil
     from offwind_pin.dynamics.system import System
@@ -74,17 +75,24 @@ def resting_chain(
     return CompiledChain(system, loads)
 
 
-def pencil(system: System, about: StaticResult, engine: Engine) -> DensePencil:
-    """Linear equations of small motions about a static state, by Pinocchio with either engine.
+def pencil(system: System, about: StaticResult, engine: Engine) -> CompiledPencil | DensePencil:
+    """Linear equations of small motions about a static state.
 
     Raises
     ------
     InputError : an unknown engine
     """
-    from offwind_pin.dynamics.reference.dense_pencil import DensePencil
-
     check_engine(engine)
-    return DensePencil(system.equations(about.acting_loads(), None, about.memory), about.q)
+    if engine == "pinocchio":
+        from offwind_pin.dynamics.reference.dense_pencil import DensePencil
+
+        return DensePencil(system.equations(about.acting_loads(), None, about.memory), about.q)
+    from offwind_pin.dynamics.compiled.chain import CompiledChain
+    from offwind_pin.dynamics.compiled.pencil import CompiledPencil
+
+    chain = CompiledChain(system, about.acting_loads())
+    chain.memory = about.memory
+    return CompiledPencil(chain, about.q)
 
 
 def moving_chain(

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
+    from offwind_pin.dynamics.compiled.pencil import CompiledPencil
     from offwind_pin.dynamics.reference.dense_pencil import DensePencil
 
 _FAMILY_OF_JOINT = {"px": "FA", "ry": "FA", "py": "SS", "rx": "SS", "rz": "T", "pz": "V"}
@@ -27,6 +28,8 @@ _MOSTLY = 0.5
 """Share of the potential energy in springs of tuned mass dampers that makes a mode theirs."""
 _EQUAL = 1e-6
 """Relative difference of squared frequencies below which two modes are one pair."""
+_STILL = 1e-9
+"""Motion of the axis over the largest joint displacement that is rounding."""
 _SHOWN = {"FA": 0, "SS": 1, "V": 2, "T": 5}
 
 
@@ -167,8 +170,7 @@ def modes(
     ----------
     n : number of modes
     about : static state; by default that under gravity alone
-    engine : what evaluates the equations: ``"compiled"`` or ``"pinocchio"``; the matrices of the
-        eigenproblem come from Pinocchio with either
+    engine : what evaluates the equations: ``"compiled"`` or ``"pinocchio"``
 
     Raises
     ------
@@ -202,9 +204,11 @@ def modes(
     normalised = np.empty_like(shape)
     above_mudline = np.flatnonzero(height >= system.turbine.site.mudline - 1e-9)
     for i in range(n):
+        if np.abs(shape[i]).max() <= _STILL * np.abs(vectors[:, i]).max():
+            shape[i] = 0.0  # a damper on a clamped base moves nothing else
         shown = shape[i, :, _SHOWN[family[i]]]
         at = above_mudline[np.argmax(np.abs(shown[above_mudline]))]
-        size = float(shown[at]) or 1.0  # a damper on a clamped base moves nothing else
+        size = float(shown[at]) or 1.0
         normalised[i] = shape[i] * np.sign(size)
         vectors[:, i] *= np.sign(size)
         unit[i] = shape[i] / size
@@ -242,7 +246,9 @@ def _damper_share(system: System, vectors: Array, work: Array) -> Array:
     return np.asarray(stored / work.sum(axis=0))
 
 
-def _separate_planes(system: System, linear: DensePencil, squares: Array, vectors: Array) -> Array:
+def _separate_planes(
+    system: System, linear: CompiledPencil | DensePencil, squares: Array, vectors: Array
+) -> Array:
     """Turn pairs of equal frequency so that one moves fore-aft and the other side-side.
 
     On a structure that is the same in every direction any two normal directions are modes.

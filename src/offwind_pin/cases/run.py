@@ -257,10 +257,10 @@ def _description(case: Case, system: System) -> Groups:
 def _case_dataset(
     case: Case, status: str, wall: float, simulated: float, begun: float
 ) -> xr.Dataset:
-    """The definitions, and the account of the run; the run continued from ``begun`` seconds."""
-    definitions = {
+    """The definition, and the account of the run, which continued from ``begun`` seconds."""
+    definition = {
         "definition": json.dumps(case.model_dump(mode="json", by_alias=True)),
-        "turbine_definition": json.dumps(case.turbine.model_dump(mode="json", by_alias=True)),
+        "content_hash": case.content_hash,
     }
     account = {
         "status": status,
@@ -280,7 +280,7 @@ def _case_dataset(
             **account,
             **steps,
             **versions(),
-            **definitions,
+            **definition,
         }
     )
 

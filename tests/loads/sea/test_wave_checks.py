@@ -214,7 +214,7 @@ def test_facts_of_a_case(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> No
         assert data.attrs["wave_highest_crest_m"] == waves["highest_crest_m"]
         assert "blocks" in data.attrs["wave_notes"]
         elevation = data["wave_elevation"]
-        assert elevation.attrs["long_name"].endswith("about the mean water level")
+        assert elevation.attrs["long_name"].endswith("mean water level")
         assert float(elevation.sel(time=12.0, method="nearest")) == pytest.approx(3.5, abs=1e-3)
         assert float(elevation.max()) <= waves["highest_crest_m"] * (1 + 1e-3)
     page = (tmp_path / "out" / "report.html").read_text()

@@ -9,12 +9,14 @@ import numpy as np
 from offwind_pin.dynamics.base_excitation import GROUND_NUMBERS, Grounding
 from offwind_pin.dynamics.compiled.ground import move_ground
 from offwind_pin.dynamics.compiled.model import NO_JOINT, Model, TunedMasses
+from offwind_pin.dynamics.compiled.newton_matrix import assemble
 from offwind_pin.dynamics.compiled.tuned_mass import (
     tmd_after,
     tmd_before,
     tmd_between,
     tmd_eliminate,
     tmd_energies,
+    tmd_multiply,
     tmd_residual,
 )
 from offwind_pin.dynamics.system import System
@@ -87,6 +89,7 @@ def make_model(
                 for load in loads
             ]
         ),
+        assemble=assemble.address,
     )
 
 
@@ -104,7 +107,15 @@ def _tuned_masses(system: System) -> TunedMasses:
     ]
     body = np.array([mass.body for mass in sliding], dtype=np.intp)
     height = np.array([mass.height for mass in sliding], dtype=float)
-    kernels = [tmd_residual, tmd_eliminate, tmd_before, tmd_after, tmd_between, tmd_energies]
+    kernels = [
+        tmd_residual,
+        tmd_eliminate,
+        tmd_before,
+        tmd_after,
+        tmd_multiply,
+        tmd_between,
+        tmd_energies,
+    ]
     return TunedMasses(
         body,
         np.array(joints, dtype=np.intp).reshape(-1, 2),

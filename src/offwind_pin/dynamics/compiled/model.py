@@ -41,7 +41,7 @@ class TunedMasses(Record):
     mass : (D,) in kg
     offset : (D,) along the carrier in m
     height : (D,) undeformed, in m
-    residual, eliminate, before, after, between, energies : addresses of the kernels in
+    residual, eliminate, before, after, multiply, between, energies : addresses of the kernels in
         :mod:`offwind_pin.dynamics.compiled.tuned_mass`; 0 without dampers
     """
 
@@ -54,6 +54,7 @@ class TunedMasses(Record):
     eliminate: Count
     before: Count
     after: Count
+    multiply: Count
     between: Count
     energies: Count
 
@@ -86,6 +87,7 @@ class Model(Record):
     first_memory : (L + 2,) where the memory of each load, and of the root, begins
     forces, tangents, commits : (L,) addresses of the loads' kernels; 0 for a load without tangents,
         or without memory
+    assemble : address of the kernel that sets the bodies' matrices
     """
 
     base: Number
@@ -118,6 +120,7 @@ class Model(Record):
     forces: Counts
     tangents: Counts
     commits: Counts
+    assemble: Count
 
 
 class State(Record):

@@ -32,6 +32,9 @@ from offwind_pin.loads.point_load import tangent_kernel
 
 FACTORISATION = Factorisation.numba_type()
 
+assemble_kernel = exchangeable(
+    types.void(MODEL, DATA, STATE, FACTORISATION, ROW, types.float64, types.float64), nogil=True
+)
 factorise_kernel = exchangeable(
     types.void(MODEL, DATA, STATE, FACTORISATION, ROW, types.float64, types.float64), nogil=True
 )
@@ -45,7 +48,7 @@ tmd_before_kernel = exchangeable(types.void(MODEL, FACTORISATION, ROW))
 tmd_after_kernel = exchangeable(types.void(MODEL, FACTORISATION))
 """Decorator for ``kernel(model, factors)``: what the twists of the carriers add."""
 
-_tangents = tangent_kernel.call
+_tangents, _assemble = tangent_kernel.call, assemble_kernel.call
 _tmd_eliminate, _tmd_before = tmd_eliminate_kernel.call, tmd_before_kernel.call
 _tmd_after = tmd_after_kernel.call
 
@@ -67,11 +70,25 @@ def factorise(
         step, in 1/s and 1/s2; both zero for statics, where the matrix is the exact tangent. In
         motion the terms of the inertia forces that depend on velocity are left out.
     """
-    body_matrices(model, data, factors, da_dq)
-    load_matrices(model, data, state, factors, time_inputs, dv_dq, da_dq)
+    _assemble(model.assemble, (model, data, state, factors, time_inputs, dv_dq, da_dq))
     if model.tmd.eliminate != 0:
         _tmd_eliminate(model.tmd.eliminate, (model, data, factors, dv_dq, da_dq))
     eliminate(model, data, factors, dv_dq)
+
+
+@assemble_kernel
+def assemble(
+    model: Model,
+    data: Data,
+    state: State,
+    factors: Factorisation,
+    time_inputs: Array,
+    dv_dq: float,
+    da_dq: float,
+) -> None:
+    """Set the bodies' matrices of an evaluated state and time inputs; nothing is eliminated."""
+    body_matrices(model, data, factors, da_dq)
+    load_matrices(model, data, state, factors, time_inputs, dv_dq, da_dq)
 
 
 @solve_kernel
@@ -137,13 +154,7 @@ def eliminate(model: Model, data: Data, factors: Factorisation, dv_dq: float) ->
         first = model.roots + model.node_joints * (k - 1) if k > 0 else 0
         for i in range(count):
             dof = first + i
-            # Work of the held wrench on the joint's column, as the twist below turns that column
-            for m in range(3):
-                n, o = (m + 1) % 3, (m + 2) % 3
-                turning[m] = axes[dof, 3 + n] * wrench[k, o] - axes[dof, 3 + o] * wrench[k, n]
-                value = axes[dof, n] * wrench[k, o] - axes[dof, o] * wrench[k, n]
-                value += axes[dof, 3 + n] * wrench[k, 3 + o] - axes[dof, 3 + o] * wrench[k, 3 + n]
-                turning[3 + m] = value
+            turn_of_axis(axes, wrench, dof, k, turning)
             for j in range(6):
                 joint[dof, j] = axes[dof, j]
                 passed, returned = 0.0, -turning[j]
@@ -178,6 +189,20 @@ def eliminate(model: Model, data: Data, factors: Factorisation, dv_dq: float) ->
             for i in range(6):
                 for j in range(6):
                     articulated[k - 1, i, j] += articulated[k, i, j]
+
+
+@inner
+def turn_of_axis(axes: Array, wrench: Array, dof: int, k: int, turning: Array) -> None:
+    """Set (6,) work of the held wrench on a joint's column, as the twist below turns that column.
+
+    k : body that the joint moves
+    """
+    for i in range(3):
+        j, m = (i + 1) % 3, (i + 2) % 3
+        turning[i] = axes[dof, 3 + j] * wrench[k, m] - axes[dof, 3 + m] * wrench[k, j]
+        value = axes[dof, j] * wrench[k, m] - axes[dof, m] * wrench[k, j]
+        value += axes[dof, 3 + j] * wrench[k, 3 + m] - axes[dof, 3 + m] * wrench[k, 3 + j]
+        turning[3 + i] = value
 
 
 @inner

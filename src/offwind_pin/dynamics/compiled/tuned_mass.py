@@ -11,6 +11,7 @@ import numpy as np
 
 from offwind_pin.base.definition import Array
 from offwind_pin.base.kernels import inlined, inner
+from offwind_pin.dynamics.compiled.matrix_products import tmd_multiply_kernel
 from offwind_pin.dynamics.compiled.model import (
     NO_JOINT,
     Data,
@@ -199,6 +200,55 @@ def tmd_after(model: Model, factors: Factorisation) -> None:
             if dof != NO_JOINT:
                 for j in range(6):
                     factors.solution[dof] -= factors.follow[dof, j] * factors.tmd_passed[d, j]
+
+
+@tmd_multiply_kernel
+def tmd_multiply(
+    model: Model,
+    data: Data,
+    factors: Factorisation,
+    dv_dq: float,
+    da_dq: float,
+    transposed: int,
+    vector: Array,
+    product: Array,
+) -> None:
+    """Set the dampers' part of a product, and turn the twists of their carriers into wrenches."""
+    point, matrices, twist = np.zeros((3, 3)), np.zeros((1, 6, 6)), np.zeros(6)
+    wrench, joint, tmd = factors.tmd_passed, data.joint, model.tmd
+    for d in range(len(tmd.body)):
+        need, position = tmd_force(model, data, d), row_of(data.tmd_position, d)
+        matrices.fill(0.0)
+        add_inertia(matrices, 0, da_dq, tmd.mass[d], position, point)
+        add_arm(matrices, 0, position, scale(-1.0, need))
+        spin = (wrench[d, 3], wrench[d, 4], wrench[d, 5])
+        for j in range(6):
+            twist[j] = wrench[d, j]
+        for i in range(2):
+            dof = tmd.joint[d, i]
+            if dof != NO_JOINT:
+                for j in range(6):
+                    twist[j] += joint[dof, j] * vector[dof]
+        for i in range(6):
+            wrench[d, i] = 0.0
+            for j in range(6):
+                entry = matrices[0, j, i] if transposed != 0 else matrices[0, i, j]
+                wrench[d, i] += entry * twist[j]
+        force = row_of(wrench, d)
+        for i in range(2):
+            dof = tmd.joint[d, i]
+            if dof == NO_JOINT:
+                continue
+            axis = row_of(joint, dof)
+            turned = cross(need, axis)
+            value = (model.stiffness[dof] + dv_dq * model.damping[dof]) * vector[dof]
+            value += dot(axis, force)
+            if transposed != 0:
+                for j in range(3):
+                    wrench[d, 3 + j] -= turned[j] * vector[dof]
+            else:
+                value -= dot(turned, spin)
+            product[dof] = value
 
 
 @tmd_between_kernel
