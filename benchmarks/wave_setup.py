@@ -62,17 +62,17 @@ def row(case: OperationalCase, stretching: str, whole: float, repeats: int) -> d
     long = sea.model_copy(update={"repeat_period": whole, "stretching": stretching})
     turbine = case.system.turbine
     running = replace(case, system=replace(case.system, sea=long))
-    waters = HydrodynamicModel.of(turbine, long)
+    hydrodynamics = HydrodynamicModel.of(turbine, long)
     steps = case.duration / case.dt
     time = 100.0 + case.dt * np.arange(BLOCK, dtype=float)
     rise = np.ones(BLOCK)
     runs: dict[str, Callable[[int], object]] = {
         "setup": lambda count: [HydrodynamicModel.of(turbine, long) for _ in range(count)],
-        "rows": lambda count: [waters.water.time_inputs(time, rise) for _ in range(count)],
+        "rows": lambda count: [hydrodynamics.water.time_inputs(time, rise) for _ in range(count)],
         "run": lambda count: [running.simulate() for _ in range(count)],
     }
     taken = measuring.rounds(runs, repeats)
-    waves = waters.surface.waves
+    waves = hydrodynamics.surface.waves
     per_step = [t / steps for t in taken["run"]]
     of_run = [
         setup / (whole / case.dt * step)
@@ -82,17 +82,17 @@ def row(case: OperationalCase, stretching: str, whole: float, repeats: int) -> d
     return {
         "stretching": stretching,
         "components": 0 if waves is None else len(waves.harmonic),
-        "strips": len(waters.strips.height),
+        "strips": len(hydrodynamics.strips.height),
         "setup_s": statistics.median(taken["setup"]),
         "rows_per_step_s": statistics.median(taken["rows"]) / BLOCK,
-        "table_bytes": table_bytes(waters),
+        "table_bytes": table_bytes(hydrodynamics),
         "step_s": statistics.median(per_step),
         "setup_over_run": statistics.median(of_run),
         "rows_over_step": statistics.median(of_step),
     }
 
 
-def table_bytes(waters: HydrodynamicModel) -> int:
+def table_bytes(hydrodynamics: HydrodynamicModel) -> int:
     """Size of the arrays that the kinematics hold, those of surface and waves included."""
     seen: dict[int, int] = {}
 
@@ -106,7 +106,7 @@ def table_bytes(waters: HydrodynamicModel) -> int:
             for part in vars(thing).values():
                 collect(part, depth - 1)
 
-    collect(waters.water, 4)
+    collect(hydrodynamics.water, 4)
     return sum(seen.values())
 
 

@@ -126,7 +126,7 @@ def where(rows: dict[str, Array], name: str) -> dict[str, float]:
     }
 
 
-def fit(turbine: ow.Turbine) -> dict[str, ow.Identification]:
+def fit(turbine: ow.Turbine) -> dict[str, ow.soil.SoilIdentification]:
     """Fits to the three published numbers together."""
     linear = with_curve(turbine, _linear(at_mudline=1e7, gradient=4e7))
     sloped = with_curve(turbine, _linear(gradient=4e7))
@@ -187,7 +187,7 @@ def _power(exponent: float, at_diameter: float, folder: Path) -> CurveTable:
     return CurveTable(kind="table", file=path)
 
 
-def _numbers(found: ow.Identification) -> dict[str, float]:
+def _numbers(found: ow.soil.SoilIdentification) -> dict[str, float]:
     numbers = {
         name: float(target.found[0]) for name, target in zip(PUBLISHED, found.targets, strict=True)
     }
@@ -238,7 +238,7 @@ def draw(walks: dict[str, dict[str, Array]]) -> Figure:
 
 
 def render(
-    fits: dict[str, ow.Identification],
+    fits: dict[str, ow.soil.SoilIdentification],
     numbers: dict[str, dict[str, dict[str, float]]],
     picture: Markup,
 ) -> str:

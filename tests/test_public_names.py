@@ -20,7 +20,7 @@ MOVED = {
     | {"UniformCurrent", "WhiteNoise"},
     "signal": {"Accelerations", "CrossSpectra", "FreeDecay", "OperationalModes", "free_decay"}
     | {"cross_spectral_matrix", "modal_assurance", "operational_modes", "read_accelerations"},
-    "soil": {"Condensation", "DeflectionTarget", "FrequencyTarget", "Identification", "Parameter"}
+    "soil": {"Condensation", "DeflectionTarget", "FrequencyTarget", "Parameter"}
     | {"Pushover", "ShapeTarget", "SoilOverview", "condense", "equivalent_damping"}
     | {"identify_soil", "pile_only", "pushover", "soil_overview", "write_soil"},
     "wind": {"ExtremeOperatingGust", "LogLaw", "PowerLaw", "RotorWind", "SyntheticWind"}
@@ -77,3 +77,8 @@ def test_every_name_of_a_stub_can_be_imported(space: ModuleType) -> None:
     assert set(space.__all__) <= names
     for name in names:
         getattr(space, name)
+
+
+def test_renamed_names_are_still_there() -> None:
+    """Names of version 0.1 that have another name now."""
+    assert ow.Identification is ow.soil.SoilIdentification

@@ -7,6 +7,7 @@ from offwind_pin.analysis.modal import ModalResult, modes
 from offwind_pin.analysis.simulate import simulate
 from offwind_pin.analysis.static import StaticResult, static
 from offwind_pin.base.errors import InputError, InterruptedSimulation, OffwindError, SolverError
+from offwind_pin.cases.case import Case, load_case
 from offwind_pin.cases.run import run_case
 from offwind_pin.definitions.reader import load_turbine
 from offwind_pin.definitions.shipped import shipped_turbines
@@ -55,7 +56,6 @@ from offwind_pin.signal import read_accelerations as read_accelerations
 from offwind_pin.soil import Condensation as Condensation
 from offwind_pin.soil import DeflectionTarget as DeflectionTarget
 from offwind_pin.soil import FrequencyTarget as FrequencyTarget
-from offwind_pin.soil import Identification as Identification
 from offwind_pin.soil import Parameter as Parameter
 from offwind_pin.soil import Pushover as Pushover
 from offwind_pin.soil import ShapeTarget as ShapeTarget
@@ -84,6 +84,7 @@ __version__: str
 
 __all__ = [
     "AdaptiveStep",
+    "Case",
     "Channel",
     "DampedAbsorber",
     "FixedStep",
@@ -113,6 +114,7 @@ __all__ = [
     "build",
     "den_hartog",
     "export_urdf",
+    "load_case",
     "load_turbine",
     "modes",
     "open_results",

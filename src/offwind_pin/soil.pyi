@@ -6,7 +6,7 @@ from offwind_pin.analysis.foundation.pile_only import pile_only
 from offwind_pin.analysis.foundation.pushover import Pushover, pushover
 from offwind_pin.analysis.foundation.registry import register_foundation
 from offwind_pin.analysis.foundation.study.study import SoilOverview, soil_overview
-from offwind_pin.analysis.updating.identify_soil import Identification, Parameter, identify_soil
+from offwind_pin.analysis.updating.identify_soil import Parameter, SoilIdentification, identify_soil
 from offwind_pin.analysis.updating.targets import DeflectionTarget, FrequencyTarget, ShapeTarget
 from offwind_pin.definitions.soil.layers import SoilLayer
 from offwind_pin.display.report.soil_folder import write_soil
@@ -21,7 +21,6 @@ __all__ = [
     "DeflectionTarget",
     "Foundation",
     "FrequencyTarget",
-    "Identification",
     "Parameter",
     "PileNodes",
     "Pushover",
@@ -29,6 +28,7 @@ __all__ = [
     "ShapeTarget",
     "SoilCurve",
     "SoilFamily",
+    "SoilIdentification",
     "SoilLayer",
     "SoilOverview",
     "condense",

@@ -16,7 +16,7 @@ from helpers.earthquakes import shaking
 import offwind_pin as ow
 from offwind_pin.analysis.foundation.study.state import soil_displacement_reached, soil_springs
 from offwind_pin.cases.case import load_case
-from offwind_pin.cases.earthquake import PERIODS, Shaking, earthquake_dataset
+from offwind_pin.cases.earthquake import PERIODS, CaseEarthquake, earthquake_dataset
 from offwind_pin.cases.run import run_case
 from offwind_pin.display.figures.earthquake import response_spectrum_plot
 from offwind_pin.signal.response_spectrum import response_spectrum
@@ -184,7 +184,7 @@ def test_picture_has_what_it_should() -> None:
     spectrum = response_spectrum(record, motion.step, PERIODS)
     periods = {"FA1": 4.2, "SS1": 4.25, "FA2": 0.9, "beyond": 20.0}
     modes = SimpleNamespace(label=list(periods), frequency_hz=1 / np.array([*periods.values()]))
-    figure = response_spectrum_plot(earthquake_dataset(Shaking(motion, [], 9.81), modes))
+    figure = response_spectrum_plot(earthquake_dataset(CaseEarthquake(motion, [], 9.81), modes))
     assert len(figure.axes) == 3
     lines = {line.get_label(): line for line in figure.axes[-1].lines}
     np.testing.assert_allclose(lines["x"].get_ydata(), spectrum.pseudo_acceleration[:, 0])

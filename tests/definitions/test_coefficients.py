@@ -86,12 +86,10 @@ def test_strips_take_the_coefficient_of_their_number(oc6: ow.Turbine) -> None:
     turbine = oc6.model_copy(update={"hydrodynamics": table})
     still = HydrodynamicModel.of(turbine, ow.StillWater())
     assert np.all(still.drag == 0)
-    waters = HydrodynamicModel.of(
-        turbine, ow.IrregularWaves(6.0, 10.0, seed=1, repeat_period=600.0)
-    )
-    assert np.all(np.diff(waters.drag) > 0)
-    assert waters.added_mass == pytest.approx(3 * (1 + waters.strips.height / 30), rel=1e-12)
+    model = HydrodynamicModel.of(turbine, ow.IrregularWaves(6.0, 10.0, seed=1, repeat_period=600.0))
+    assert np.all(np.diff(model.drag) > 0)
+    assert model.added_mass == pytest.approx(3 * (1 + model.strips.height / 30), rel=1e-12)
     # in deep water orbits are as high as the waves: 2 pi sqrt(2) Hs / 4 over 9 m, and more with the
     # coth kh of this depth
     least = 2 * np.pi * np.sqrt(2) * 6.0 / 4 / 9.0
-    assert least < waters.drag[-1] < 1.5 * least
+    assert least < model.drag[-1] < 1.5 * least

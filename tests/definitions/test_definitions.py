@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 import yaml
 from helpers import definitions
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
 import offwind_pin as ow
@@ -26,6 +26,8 @@ PARTS = definitions.SEAS | definitions.TOWER_WIND | definitions.TOWER_TOP | defi
 FEW = settings(
     max_examples=40,
     deadline=None,
+    derandomize=True,
+    phases=[Phase.generate],
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture],
 )
 Key = str | int
@@ -122,6 +124,16 @@ def refused(folder: Path, content: Any, place: tuple[Key, ...], kind: type[Defin
         read_definition(path, kind)
     assert ".".join(map(str, place)) in str(error.value)
     assert str(path) in error.value.where
+
+
+def test_equality_is_of_fields() -> None:
+    """Whatever arrays were computed from them on the way."""
+    first, second = (ow.TableSpectrum((0.1, 0.2, 0.3), (1.0, 2.0, 1.0)) for _ in range(2))
+    assert first.peak_period == second.peak_period
+    assert first == second
+    assert first != second.replace(ordinate=(1.0, 2.0, 2.0))
+    assert first != ow.WhiteNoise(2.0, 0.1, 0.3)
+    assert pickle.loads(pickle.dumps(first)) == first
 
 
 @pytest.mark.parametrize("name", shipped_cases())

@@ -26,7 +26,7 @@ from offwind_pin.display.viewer.mode_page import animate
 from offwind_pin.dynamics.compiled.chain import CompiledChain
 from offwind_pin.loads.tower_top.load_history import TowerTopLoad
 from offwind_pin.structure.pinocchio_model import build_model
-from offwind_pin.structure.urdf import write_sidecar, write_urdf
+from offwind_pin.structure.urdf import urdf_text, write_sidecar
 
 Array = NDArray[np.float64]
 
@@ -56,7 +56,7 @@ def test_a_tilted_mass_hangs_in_its_spring(damped: ow.System) -> None:
     gravity, joints = damped.turbine.site.gravity, damped.chain.axis_joints
     expected = [
         -mass.mass * gravity / mass.stiffness * chain.data.rotation[mass.body, 2, "xy".index(j[1])]
-        for mass in damped.chain.sliding_mass
+        for mass in damped.chain.tuned_masses
         for j in mass.joints
     ]
     assert found.q[joints:] == pytest.approx(expected, rel=1e-7)
@@ -126,7 +126,7 @@ def test_section_loads_jump_by_the_damper_s_force(damped: ow.System, seed: int) 
     assert abs(across_x) > 1e3
     # Along x the second damper is held: the body pushes its whole mass.
     guide, middle = (
-        next(d for d, m in enumerate(damped.chain.sliding_mass) if m.name == name)
+        next(d for d, m in enumerate(damped.chain.tuned_masses) if m.name == name)
         for name in ("guide", "middle")
     )
     gravity = np.array([0.0, 0.0, damped.turbine.site.gravity])
@@ -145,7 +145,7 @@ def test_pinocchio_s_acceleration_of_the_masses(damped: ow.System) -> None:
     chain.residual(chain.time_inputs(np.zeros(1))[0], state.q, state.v, state.a)
     model, data = damped.pin_model, damped.scratch.data
     pin.forwardKinematics(model, data, state.q, state.v, state.a)
-    for d, mass in enumerate(damped.chain.sliding_mass):
+    for d, mass in enumerate(damped.chain.tuned_masses):
         joint = model.getJointId(mass.joint_names[-1])
         frame = pin.ReferenceFrame.LOCAL_WORLD_ALIGNED
         expected = [
@@ -340,7 +340,7 @@ def test_urdf_is_read_back_in_the_chain_s_order(undamped: ow.Turbine) -> None:
     names = system.chain.joint_name[system.chain.axis_joints :]
     order = ["top", "a", "a_px", "zz", "a_px_link"]
     assert names == tuple(f"zz_tmd_{name}_{joint}" for name in order for joint in ("px", "py"))
-    text = write_urdf(system.turbine, system.chain)
+    text = urdf_text(system.turbine, system.chain)
     model = pin.buildModelFromXML(text)
     assert tuple(model.names)[1:] == system.chain.joint_name
     read = model.inertias[model.getJointId("zz_tmd_top_py")]
@@ -359,8 +359,8 @@ def test_no_damper_changes_nothing(undamped: ow.Turbine) -> None:
     """The URDF text names none; the hash is that of a definition without the field, and moves with
     it."""
     chain = ow.build(undamped, "clamped", elements=5).chain
-    assert "tmd" not in write_urdf(undamped, chain)
-    assert "damper" not in write_urdf(undamped, chain)
+    assert "tmd" not in urdf_text(undamped, chain)
+    assert "damper" not in urdf_text(undamped, chain)
     assert "tuned_mass_dampers" not in write_sidecar(undamped, chain, chain.joint_stiffness, {})
     hashes = {undamped.content_hash}
     for z in (50.0, 60.0):
@@ -397,7 +397,7 @@ def test_it_is_shown(damped: ow.System) -> None:
 def test_a_damper_on_a_clamped_base(undamped: ow.Turbine, element: Element) -> None:
     """The lowest body does not move, its damper does: residual, tangent, section loads."""
     system = ow.build(several(undamped), "clamped", elements=6, element=element)
-    assert [mass.body for mass in system.chain.sliding_mass][-1] == 0
+    assert [mass.body for mass in system.chain.tuned_masses][-1] == 0
     state, chain = random_state(system, 4), CompiledChain(system)
     equations, row = chain.equations(), chain.time_inputs(np.zeros(1))[0]
     found = chain.residual(row, state.q, state.v, state.a)

@@ -78,7 +78,7 @@ def build_by_hand(system: ow.System, height: Sequence[float] | Array = ()) -> Ha
             inertia = pin.Inertia(piece.mass, lever, piece.inertia())
             model.appendBodyToJoint(parent, inertia, pin.SE3.Identity())
             last = high == chain.cut[k + 1]
-            for i, mass in enumerate(chain.sliding_mass):
+            for i, mass in enumerate(chain.tuned_masses):
                 if mass.body == k and low <= mass.height and (last or mass.height < high):
                     carriers[i] = (parent, place)
 
@@ -94,7 +94,7 @@ def build_by_hand(system: ow.System, height: Sequence[float] | Array = ()) -> Ha
     rna = pin.Inertia(chain.rna.mass, chain.rna.center_of_mass, chain.rna.inertia)
     bearing = pin.SE3(np.eye(3), np.array([0.0, 0.0, chain.top - place]))
     model.appendBodyToJoint(parent, rna, bearing)
-    for i, mass in enumerate(chain.sliding_mass):
+    for i, mass in enumerate(chain.tuned_masses):
         parent, place = carriers[i]
         for _ in mass.joints:
             own_joint(next(names), mass.height)

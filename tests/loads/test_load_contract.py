@@ -141,8 +141,8 @@ def test_fingerprints_of_a_system(oc6: ow.Turbine) -> None:
         )
         turbine = oc6.model_copy(update={"soil": soil, "structural_damping": None})
         built = ow.build(turbine, "distributed_springs", sea, elements=6)
-        assert built.waters is not None
-        loads = [*built.waters.loads(), *built.foundation.soil]
+        assert built.hydrodynamics is not None
+        loads = [*built.hydrodynamics.loads(), *built.foundation.soil]
         return [load.fingerprint() for load in loads]
 
     sea = ow.IrregularWaves(2.0, 6.0, seed=3, repeat_period=60.0)

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from helpers.hydrodynamics import RegularWater
 from helpers.numerics import relative_difference
 from helpers.point_loads import EveryKind
-from helpers.waters import RegularWater
 
 import offwind_pin as ow
 from offwind_pin.analysis.tower_drag import tower_drag

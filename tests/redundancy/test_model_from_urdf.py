@@ -9,7 +9,7 @@ from helpers.states import State
 from numpy.testing import assert_allclose
 
 import offwind_pin as ow
-from offwind_pin.structure.urdf import write_sidecar, write_urdf
+from offwind_pin.structure.urdf import urdf_text, write_sidecar
 
 
 @pytest.fixture
@@ -74,4 +74,4 @@ def test_sidecar_carries_the_springs_of_the_system(any_system: ow.System) -> Non
 def test_text_is_reproducible(any_system: ow.System) -> None:
     """The same chain gives the same text, to the byte."""
     turbine, chain = any_system.turbine, any_system.chain
-    assert write_urdf(turbine, chain) == write_urdf(turbine, chain)
+    assert urdf_text(turbine, chain) == urdf_text(turbine, chain)

@@ -12,7 +12,7 @@ from helpers.dampers import several
 
 import offwind_pin as ow
 from offwind_pin.base.definition import Array
-from offwind_pin.structure.urdf import write_urdf
+from offwind_pin.structure.urdf import urdf_text
 
 SHIPPED = Path(__file__).resolve().parents[2] / "urdf"
 
@@ -63,7 +63,7 @@ def test_mass_matrix_and_bias_forces(foundation: str, oc6: ow.Turbine) -> None:
 def test_tuned_mass_dampers(undamped: ow.Turbine) -> None:
     """The same of a model with dampers, whose joints MuJoCo may read in another order."""
     system = ow.build(several(undamped), "distributed_springs", elements=10)
-    text, names = write_urdf(system.turbine, system.chain), system.chain.joint_name
+    text, names = urdf_text(system.turbine, system.chain), system.chain.joint_name
     rng = np.random.default_rng(9)
     q, v = rng.uniform(-0.02, 0.02, (2, system.nv))
     theirs = _by_mujoco(text, np.zeros(system.nv), np.zeros(system.nv))[0]

@@ -37,7 +37,7 @@ def assemble(
     springs = np.zeros(len(chain.joint_name))
     springs[chain.roots : chain.axis_joints] = chain.joint_stiffness.ravel()
     damping = np.zeros_like(springs)
-    of_joint = [mass for mass in chain.sliding_mass for _ in mass.joints]
+    of_joint = [mass for mass in chain.tuned_masses for _ in mass.joints]
     springs[chain.axis_joints :] = [mass.stiffness for mass in of_joint]
     damping[chain.axis_joints :] = [mass.damping for mass in of_joint]
     return System(held, foundation, chain, sea, springs, damping, {})

@@ -132,7 +132,8 @@ def structure_dataset(system: System) -> xr.Dataset:
                 None,
             ),
         }
-    waters = system.waters
+    hydrodynamics = system.hydrodynamics
+    waves = None if hydrodynamics is None else hydrodynamics.surface.waves
     data = xr.Dataset(
         {
             name: (dims, values, {"long_name": text} | ({} if unit is None else {"units": unit}))
@@ -149,7 +150,7 @@ def structure_dataset(system: System) -> xr.Dataset:
             "degrees_of_freedom": system.nv,
             "root": "fixed" if system.foundation.root is None else "flexible",
             "sea_in_words": sea_in_words(system),
-            "surface": "calm" if waters is None or waters.surface.waves is None else "waves",
+            "surface": "calm" if waves is None else "waves",
         },
     )
     if dampers:
@@ -251,7 +252,7 @@ def soil_dataset(soil: SoilSprings, mudline: float, reached: Array | None = None
 
 def _waves(system: System) -> Constants:
     """eta = sum a cos(2 pi f t + phase - kx x - ky y) above the water level, fully developed."""
-    waves = None if system.waters is None else system.waters.surface.waves
+    waves = None if system.hydrodynamics is None else system.hydrodynamics.surface.waves
     surface = None if waves is None else SurfaceWaves.of(waves)
     if surface is None:
         return {}

@@ -57,9 +57,9 @@ def waves_dataset(
     Dataset : None for a sea without waves; without histories after the ramp it consists of
         attributes alone
     """
-    waters, sea = system.waters, system.sea
-    waves = None if waters is None else waters.surface.waves
-    if waters is None or sea is None or waves is None:
+    hydrodynamics, sea = system.hydrodynamics, system.sea
+    waves = None if hydrodynamics is None else hydrodynamics.surface.waves
+    if hydrodynamics is None or sea is None or waves is None:
         return None
     facts = wave_facts(system)
     for name in ("notes", "cautions"):
@@ -71,7 +71,7 @@ def waves_dataset(
             "stretching": sea.stretching,
             "exact_surface": int(waves.exact_surface),
             "mudline_m": system.turbine.site.mudline,
-            "water_level_m": waters.surface.level,
+            "water_level_m": hydrodynamics.surface.level,
         }
     )
     part = None if histories is None else analysed(histories)
@@ -83,9 +83,9 @@ def waves_dataset(
     crest = float(time[np.argmax(elevation)])
     worst = float(time[np.argmax(np.linalg.norm(moment, axis=1))])
     along = wave_direction(waves)
-    when = phases(waters.surface, waves, crest)
-    shown = profiles(waters, sea, np.array([when.crest, when.crossing, when.trough]))
-    force = waters.wave_force()
+    when = phases(hydrodynamics.surface, waves, crest)
+    shown = profiles(hydrodynamics, sea, np.array([when.crest, when.crossing, when.trough]))
+    force = hydrodynamics.wave_force()
     variables = {
         **_profile_variables(shown),
         **_force_variables(
@@ -295,9 +295,9 @@ class Profile:
     current: Array
 
 
-def profiles(waters: HydrodynamicModel, sea: Sea, times: Array) -> list[Profile]:
+def profiles(hydrodynamics: HydrodynamicModel, sea: Sea, times: Array) -> list[Profile]:
     """Of fully grown waves at times (t,) in s, with the sea's own stretching."""
-    surface, mudline = waters.surface, waters.turbine.site.mudline
+    surface, mudline = hydrodynamics.surface, hydrodynamics.turbine.site.mudline
     tops = surface.at(times, np.ones(len(times)))
     # closest at both ends, where currents fall off and waves grow
     share = (1 - np.cos(np.linspace(0, np.pi, _HEIGHTS))) / 2

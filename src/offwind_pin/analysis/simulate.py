@@ -163,7 +163,7 @@ def simulate(
         attributes,
         drawing_data(system),
         _ground_levels(system, ground_motion),
-        {mass.name: mass.travel for mass in system.chain.sliding_mass},
+        {mass.name: mass.travel for mass in system.chain.tuned_masses},
         chain.soil.height,
         {
             channel.name: (channel.dims, channel.long_name, channel.units)
@@ -212,7 +212,7 @@ def simulate(
 
 def _caution_of_travel(system: System, records: Records, cautioned: set[str]) -> None:
     """Say once of each tuned mass damper that it goes further than it has room for."""
-    for d, mass in enumerate(system.chain.sliding_mass):
+    for d, mass in enumerate(system.chain.tuned_masses):
         way = np.linalg.norm(records["stroke"][:, d], axis=1)
         if mass.name not in cautioned and np.any(way > mass.travel):
             cautioned.add(mass.name)

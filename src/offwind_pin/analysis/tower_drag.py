@@ -38,6 +38,6 @@ def tower_drag(system: System, wind: TowerWind) -> TowerDrag:
 
 def _water_line(system: System) -> float:
     """Height in m that the water does not exceed; still water level of a dry structure."""
-    if system.waters is None:
+    if system.hydrodynamics is None:
         return 0.0
-    return system.waters.surface.highest
+    return system.hydrodynamics.surface.highest

@@ -22,10 +22,10 @@ def wave_facts(system: System) -> dict[str, Any]:
     ``zero_crossing_period_s`` (sqrt(m0 / m2)), ``highest_crest_m`` and ``lowest_trough_m`` about
     the mean water level, ``repeat_period_s``, ``components``; lists ``notes`` and ``cautions``.
     """
-    waters = system.waters
-    if system.sea is None or waters is None or waters.surface.waves is None:
+    hydrodynamics = system.hydrodynamics
+    if system.sea is None or hydrodynamics is None or hydrodynamics.surface.waves is None:
         return {}
-    waves, surface = waters.surface.waves, waters.surface
+    waves, surface = hydrodynamics.surface.waves, hydrodynamics.surface
     state = moments(waves)
     facts: dict[str, Any] = {}
     if system.sea.longest_time is not None:
@@ -56,10 +56,10 @@ def check_waves(system: System, duration: float, ramp: float, dt: float | None) 
     InputError : waves that repeat or bare the bed, or a crest that does not come in full; steps too
         long for them
     """
-    sea, waters = system.sea, system.waters
-    if sea is None or waters is None or waters.surface.waves is None:
+    sea, hydrodynamics = system.sea, system.hydrodynamics
+    if sea is None or hydrodynamics is None or hydrodynamics.surface.waves is None:
         return
-    waves = waters.surface.waves
+    waves = hydrodynamics.surface.waves
     longest = sea.longest_time
     if longest is not None and duration > longest * (1 + 1e-9):
         raise InputError(
@@ -69,7 +69,7 @@ def check_waves(system: System, duration: float, ramp: float, dt: float | None) 
             "The waves would repeat: raise repeat_period, give a longer record, or shorten the "
             "simulation.",
         )
-    lowest = waters.surface.lowest_elevation
+    lowest = hydrodynamics.surface.lowest_elevation
     if lowest <= -waves.depth:
         raise InputError(
             "waves",

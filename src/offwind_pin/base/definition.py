@@ -148,6 +148,12 @@ class Definition(BaseModel):
     def __str__(self) -> str:
         return repr(self)
 
+    def __eq__(self, other: object) -> bool:
+        # By fields alone: pydantic compares what cached properties hold too, such as arrays.
+        return type(self) is type(other) and all(
+            getattr(self, name) == getattr(other, name) for name in _fields(type(self))
+        )
+
     def __hash__(self) -> int:
         return hash((type(self), *(_hashable(getattr(self, name)) for name in _fields(type(self)))))
 

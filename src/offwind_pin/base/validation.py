@@ -98,14 +98,13 @@ def _place(error: ErrorDetails, data: object, names: dict[str, str]) -> Place:
         if entered and isinstance(data, dict) and part in (data.get("kind"), data.get("model")):
             entered = False
             continue
-        nested = isinstance(data, dict | list | tuple)
-        absent = not nested or (isinstance(data, dict) and part not in data)
-        if absent and i < end:
+        present = (isinstance(data, dict) and part in data) or (
+            isinstance(data, list | tuple) and isinstance(part, int) and part < len(data)
+        )
+        if not present and i < end:
             continue
         kept.append(part)
-        if (isinstance(data, dict) and part in data) or (
-            isinstance(data, list | tuple) and isinstance(part, int) and part < len(data)
-        ):
+        if present:
             data = data[part]  # type: ignore[index]
             entered = True
     if kept and isinstance(kept[0], str):

@@ -39,7 +39,7 @@ _ORDINATES = {"displacement": "m", "pseudo_velocity": "m/s", "pseudo_acceleratio
 
 
 @dataclass(frozen=True, eq=False)
-class Shaking:
+class CaseEarthquake:
     """An earthquake that acts in a case.
 
     Attributes
@@ -55,7 +55,7 @@ class Shaking:
     gravity: float
 
     @staticmethod
-    def of(earthquake: Earthquake, gravity: float, dt: float, duration: float) -> Shaking:
+    def of(earthquake: Earthquake, gravity: float, dt: float, duration: float) -> CaseEarthquake:
         """Read what a case asks for; cautions go to the log as well, by here and by the simulation.
 
         Raises
@@ -66,7 +66,7 @@ class Shaking:
         for caution in cautions:
             _log.warning("earthquake: %s", caution)
         cautions += ground_motion_cautions(motion, dt, duration)
-        return Shaking(motion, cautions, gravity)
+        return CaseEarthquake(motion, cautions, gravity)
 
     @property
     def step(self) -> float:
@@ -81,7 +81,7 @@ class Shaking:
         return self.motion.motion(np.minimum(first + self.step * np.arange(count), last))[:, -1]
 
 
-def earthquake_dataset(shaking: Shaking, modes: ModalResult) -> xr.Dataset:
+def earthquake_dataset(shaking: CaseEarthquake, modes: ModalResult) -> xr.Dataset:
     """The ground motion at its highest level, and its spectra at periods and natural modes."""
     values, step = shaking.sampled, shaking.step
     acceleration = values[:, 2]

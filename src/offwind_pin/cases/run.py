@@ -34,7 +34,7 @@ from offwind_pin.cases.case import (
     TransientAnalysis,
     load_case,
 )
-from offwind_pin.cases.earthquake import Shaking, earthquake_dataset
+from offwind_pin.cases.earthquake import CaseEarthquake, earthquake_dataset
 from offwind_pin.cases.identification import identify
 from offwind_pin.cases.output_directory import check_writable
 from offwind_pin.cases.report import report as render
@@ -181,7 +181,7 @@ def _solve_transient(
     shaking = None
     if case.earthquake is not None:
         gravity = turbine.site.gravity
-        shaking = Shaking.of(case.earthquake, gravity, analysis.dt, analysis.duration)
+        shaking = CaseEarthquake.of(case.earthquake, gravity, analysis.dt, analysis.duration)
     wind = [] if case.tower_wind is None else [tower_drag(system, case.tower_wind)]
     data = simulate(
         system,

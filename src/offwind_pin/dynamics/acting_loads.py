@@ -8,7 +8,7 @@ import numpy as np
 
 from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError
-from offwind_pin.dynamics.base_excitation import Grounding, check_reach
+from offwind_pin.dynamics.base_excitation import BaseExcitation, check_reach
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.earthquake.ground_motion import GroundMotion
 from offwind_pin.loads.point_load import KernelLoad, PointLoad
@@ -18,7 +18,9 @@ _REACH = 20.0
 """m above the yaw bearing up to which the last body carries loads; shafts cross the axis below."""
 
 
-def grounding(system: System, loads: Sequence[PointLoad], motion: GroundMotion | None) -> Grounding:
+def base_excitation_of(
+    system: System, loads: Sequence[PointLoad], motion: GroundMotion | None
+) -> BaseExcitation:
     """Where base and soil meet a moving ground, of all the loads of a system.
 
     Raises
@@ -27,12 +29,12 @@ def grounding(system: System, loads: Sequence[PointLoad], motion: GroundMotion |
     """
     height = np.concatenate([np.zeros(0), *(load.height for load in loads)])
     if motion is None:
-        return Grounding.nowhere(len(height))
+        return BaseExcitation.nowhere(len(height))
     chain = system.chain
     check_reach(motion, chain.base, system.turbine.site.mudline)
     meets = [np.full(len(load.height), load.moves_with_ground) for load in loads]
     everywhere = np.append(height, chain.base)
-    return Grounding.of(motion, everywhere, np.concatenate([*meets, [True]]))
+    return BaseExcitation.of(motion, everywhere, np.concatenate([*meets, [True]]))
 
 
 def split_memory(
@@ -59,7 +61,7 @@ def all_loads(system: System, loads: Sequence[PointLoad]) -> list[PointLoad]:
                 "loads derived from PointLoad",
                 "Derive the class of your own load from offwind_pin.PointLoad.",
             )
-    water = [] if system.waters is None else system.waters.loads()
+    water = [] if system.hydrodynamics is None else system.hydrodynamics.loads()
     everything: list[PointLoad] = [*water, *system.foundation.soil, *loads]
     for load in everything:
         highest = system.chain.top + _REACH

@@ -14,7 +14,7 @@ from offwind_pin.structure.chain import NDArrayInt
 
 
 @dataclass(frozen=True, eq=False)
-class Grounding:
+class BaseExcitation:
     """How P loaded points and, last, the base take part in a ground motion of D levels.
 
     levels : D, zero without a ground motion
@@ -27,15 +27,15 @@ class Grounding:
     share: Array
 
     @staticmethod
-    def nowhere(points: int) -> Grounding:
+    def nowhere(points: int) -> BaseExcitation:
         """Without an earthquake."""
-        return Grounding(0, np.full(points + 1, -1, dtype=np.intp), np.zeros(points + 1))
+        return BaseExcitation(0, np.full(points + 1, -1, dtype=np.intp), np.zeros(points + 1))
 
     @staticmethod
-    def of(motion: GroundMotion, height: Array, meets: NDArray[np.bool_]) -> Grounding:
+    def of(motion: GroundMotion, height: Array, meets: NDArray[np.bool_]) -> BaseExcitation:
         """The same at heights (P + 1,) in m, where (P + 1,) of them meet the ground."""
         level, share = between_levels(motion, height)
-        return Grounding(
+        return BaseExcitation(
             len(motion.levels), np.where(meets, level, -1), np.where(meets, share, 0.0)
         )
 

@@ -92,7 +92,7 @@ class System:
         return {k: v for k, v in vars(self).items() if k not in {"pin_model", "scratch"}}
 
     @cached_property
-    def waters(self) -> HydrodynamicModel | None:
+    def hydrodynamics(self) -> HydrodynamicModel | None:
         """The sea as the structure meets it, realised once; None for a dry structure."""
         return None if self.sea is None else HydrodynamicModel.of(self.turbine, self.sea)
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from offwind_pin.base.whole_files import whole_file, write_json, write_text
 from offwind_pin.dynamics.system import System
-from offwind_pin.structure.urdf import write_meshes, write_sidecar, write_urdf
+from offwind_pin.structure.urdf import urdf_text, write_meshes, write_sidecar
 
 
 def export_urdf(system: System, out: Path) -> list[Path]:
@@ -16,7 +16,7 @@ def export_urdf(system: System, out: Path) -> list[Path]:
         with whole_file(out / "meshes" / name) as temporary:
             temporary.write_bytes(content)
     urdf, sidecar = out / f"{turbine.name}.urdf", out / f"{turbine.name}.json"
-    write_text(urdf, write_urdf(turbine, chain))
+    write_text(urdf, urdf_text(turbine, chain))
     of_nodes = system.joint_damping[chain.roots : chain.axis_joints]
     damping = of_nodes.reshape(chain.joint_stiffness.shape)
     write_json(sidecar, write_sidecar(turbine, chain, damping, system.foundation.describe()))

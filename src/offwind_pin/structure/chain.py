@@ -30,7 +30,7 @@ from offwind_pin.structure.section import (
     shear_stiffness,
     torsional_stiffness,
 )
-from offwind_pin.structure.tuned_mass import SlidingMass, sliding_masses
+from offwind_pin.structure.tuned_mass import TunedMass, tuned_masses_of
 
 Stiffness = Literal["flexibility", "midpoint"]
 Elements = int | Mapping[str, int] | None
@@ -69,7 +69,7 @@ class Chain:
         of the prismatic ones
     body : N + 1 rigid bodies, heights of their centres counted as z
     rna : rotor-nacelle assembly, fixed to the last body; offsets from the yaw bearing
-    sliding_mass : tuned mass dampers in the order of their joints, which come last
+    tuned_masses : tuned mass dampers in the order of their joints, which come last
     """
 
     base: float
@@ -83,7 +83,7 @@ class Chain:
     joint_stiffness: Array
     body: tuple[AxialBody, ...]
     rna: RigidBody
-    sliding_mass: tuple[SlidingMass, ...] = ()
+    tuned_masses: tuple[TunedMass, ...] = ()
 
     @property
     def elements(self) -> int:
@@ -107,7 +107,7 @@ class Chain:
     @property
     def mass(self) -> float:
         """Of everything in kg."""
-        sliding = sum(mass.mass for mass in self.sliding_mass)
+        sliding = sum(mass.mass for mass in self.tuned_masses)
         return self.rna.mass + sum(body.mass for body in self.body) + sliding
 
     @property
@@ -178,7 +178,7 @@ def build_chain(
     middle = (edges[:-1] + edges[1:]) / 2
     cuts = np.concatenate([[base], middle, [turbine.yaw_bearing]])
     root = [f"root_{joint}" for joint in ROOT_JOINTS] if free_root else []
-    sliding = sliding_masses(turbine, base, middle.tolist())
+    sliding = tuned_masses_of(turbine, base, middle.tolist())
     return Chain(
         base=base,
         top=turbine.yaw_bearing,
@@ -195,7 +195,7 @@ def build_chain(
         joint_stiffness=_joint_stiffness(turbine, edges, stiffness, NODE_JOINTS[element]),
         body=tuple(lump(turbine, low, high) for low, high in itertools.pairwise(cuts)),
         rna=lump_rna(turbine.rna),
-        sliding_mass=tuple(sliding),
+        tuned_masses=tuple(sliding),
     )
 
 

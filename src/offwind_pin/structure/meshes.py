@@ -12,7 +12,7 @@ from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.structure.chain import Chain, NDArrayInt
 from offwind_pin.structure.frustum import Frustum
 from offwind_pin.structure.section import frusta, outer_diameter
-from offwind_pin.structure.tuned_mass import SlidingMass
+from offwind_pin.structure.tuned_mass import TunedMass
 
 FACETS = 32
 """Sides of what is round. Normals are smoothed around it, so that few suffice."""
@@ -77,7 +77,7 @@ def body_meshes(turbine: Turbine, chain: Chain) -> dict[str, Mesh]:
     return result
 
 
-def damper_disc(turbine: Turbine, mass: SlidingMass) -> tuple[float, float]:
+def damper_disc(turbine: Turbine, mass: TunedMass) -> tuple[float, float]:
     """Radius and thickness in m of the disc that stands for a tuned mass damper in pictures."""
     diameter = float(outer_diameter(turbine, np.array([mass.height]))[0])
     return _DISC[0] * diameter, _DISC[1] * diameter

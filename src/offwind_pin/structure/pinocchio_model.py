@@ -10,7 +10,7 @@ import pinocchio as pin
 from offwind_pin.base.errors import InputError
 from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.structure.chain import Chain
-from offwind_pin.structure.urdf import write_urdf
+from offwind_pin.structure.urdf import urdf_text
 
 
 def build_model(turbine: Turbine, chain: Chain) -> pin.Model:
@@ -19,7 +19,7 @@ def build_model(turbine: Turbine, chain: Chain) -> pin.Model:
     The joints keep the chain's order, and each has one degree of freedom, so that configuration
     and velocity vectors are plain numbers in that order.
     """
-    model = pin.buildModelFromXML(write_urdf(turbine, chain))
+    model = pin.buildModelFromXML(urdf_text(turbine, chain))
     names = tuple(model.names)[1:]
     if names != chain.joint_name or model.nq != len(names):
         raise RuntimeError(f"Pinocchio read the joints {names[:4]}..., not those of the chain")

@@ -16,7 +16,7 @@ _JOINTS = {"fore_aft": ("px",), "side_side": ("py",), "both": ("px", "py")}
 
 
 @dataclass(frozen=True)
-class SlidingMass:
+class TunedMass:
     """Point mass that slides across the axis of the body that carries it.
 
     Attributes
@@ -44,13 +44,13 @@ class SlidingMass:
         return tuple(f"zz_tmd_{self.name}_{joint}" for joint in self.joints)
 
 
-def sliding_masses(turbine: Turbine, base: float, joint_height: list[float]) -> list[SlidingMass]:
+def tuned_masses_of(turbine: Turbine, base: float, joint_height: list[float]) -> list[TunedMass]:
     """Dampers of the structure above a base, in the order of their joints.
 
     joint_height : heights of the nodes in m; at a node the body above carries
     """
     masses = [
-        SlidingMass(
+        TunedMass(
             name=damper.name,
             height=damper.z,
             body=sum(height <= damper.z for height in joint_height),

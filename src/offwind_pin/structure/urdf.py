@@ -13,13 +13,13 @@ from offwind_pin.structure.chain import Chain
 from offwind_pin.structure.meshes import Mesh, body_meshes, damper_disc
 from offwind_pin.structure.rotor import rna_meshes
 from offwind_pin.structure.section import outer_diameter
-from offwind_pin.structure.tuned_mass import SlidingMass
+from offwind_pin.structure.tuned_mass import TunedMass
 
 _AXIS = {"x": "1 0 0", "y": "0 1 0", "z": "0 0 1"}
 _YELLOW, _WHITE, _RED = "0.93 0.77 0.20 1", "0.88 0.89 0.90 1", "0.75 0.22 0.17 1"
 
 
-def write_urdf(turbine: Turbine, chain: Chain) -> str:
+def urdf_text(turbine: Turbine, chain: Chain) -> str:
     """URDF text of a chain; every number with 17 significant digits.
 
     A node is three revolute joints in series (x, y, z), below them two prismatic ones (x, y) where
@@ -29,7 +29,7 @@ def write_urdf(turbine: Turbine, chain: Chain) -> str:
     """
     robot = ET.Element("robot", name=turbine.name)
     ET.SubElement(robot, "link", name="world")
-    _materials(robot, dampers=bool(chain.sliding_mass))
+    _materials(robot, dampers=bool(chain.tuned_masses))
     parent, height = "world", 0.0
     links = chain.body_name
     if chain.free_root:
@@ -56,8 +56,8 @@ def write_urdf(turbine: Turbine, chain: Chain) -> str:
     rna = ET.SubElement(robot, "link", name="rna")
     _inertial(rna, chain.rna.mass, chain.rna.center_of_mass, chain.rna.inertia)
     _visual(rna, "rna", "tower_white")
-    for mass in chain.sliding_mass:
-        _sliding_mass(robot, turbine, chain, mass)
+    for mass in chain.tuned_masses:
+        _tuned_mass(robot, turbine, chain, mass)
     ET.indent(robot)
     return (
         '<?xml version="1.0" encoding="utf-8"?>\n' + ET.tostring(robot, encoding="unicode") + "\n"
@@ -116,7 +116,7 @@ def _sliding_masses(chain: Chain) -> dict[str, Any]:
     """Spring and damper of each joint of a tuned mass damper; no entry where there is none."""
     dampers = {
         joint: {"stiffness": mass.stiffness, "damping": mass.damping, "z_m": mass.height}
-        for mass in chain.sliding_mass
+        for mass in chain.tuned_masses
         for joint in mass.joint_names
     }
     return {"tuned_mass_dampers": dampers} if dampers else {}
@@ -156,7 +156,7 @@ def _body(robot: ET.Element, chain: Chain, k: int) -> None:
     _visual(link, name, "tower_white" if name.startswith("tower") else "monopile_yellow")
 
 
-def _sliding_mass(robot: ET.Element, turbine: Turbine, chain: Chain, mass: SlidingMass) -> None:
+def _tuned_mass(robot: ET.Element, turbine: Turbine, chain: Chain, mass: TunedMass) -> None:
     """Prismatic joints of a tuned mass damper, and a point mass drawn as a disc."""
     parent, rise = chain.body_name[mass.body], mass.height - chain.origin[mass.body]
     for joint in mass.joint_names:

@@ -7,7 +7,7 @@ import pytest
 
 import offwind_pin as ow
 from offwind_pin.analysis.updating.definition_path import with_number
-from offwind_pin.analysis.updating.identify_soil import Identification, Parameter, identify_soil
+from offwind_pin.analysis.updating.identify_soil import Parameter, SoilIdentification, identify_soil
 from offwind_pin.analysis.updating.targets import (
     DeflectionTarget,
     FrequencyTarget,
@@ -47,7 +47,9 @@ def _increase(turbine: ow.Turbine, uncertainty: float) -> DeflectionTarget:
     return DeflectionTarget(value, uncertainty, over_clamped=True)
 
 
-def _identify(turbine: ow.Turbine, targets: list[Target], *parameters: Parameter) -> Identification:
+def _identify(
+    turbine: ow.Turbine, targets: list[Target], *parameters: Parameter
+) -> SoilIdentification:
     return identify_soil(turbine, targets, list(parameters), elements=COARSE)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from helpers.case_results import Results, results
-from helpers.waters import upright
+from helpers.hydrodynamics import upright
 from matplotlib.axes import Axes
 from numpy.testing import assert_allclose
 
@@ -50,28 +50,28 @@ def texts(axes: Axes) -> list[str]:
 class TestPhases:
     def test_of_a_regular_wave(self, undamped: ow.Turbine) -> None:
         """Crest at 0: crossing a quarter of a period before, trough half a period after."""
-        waters = HydrodynamicModel.of(undamped, ow.RegularWaves(HEIGHT, PERIOD))
-        found = sea_data.phases(waters.surface, waters.surface.waves, 3 * PERIOD)
+        hydrodynamics = HydrodynamicModel.of(undamped, ow.RegularWaves(HEIGHT, PERIOD))
+        found = sea_data.phases(hydrodynamics.surface, hydrodynamics.surface.waves, 3 * PERIOD)
         assert found.crossing == pytest.approx(2.75 * PERIOD, abs=1e-4)
         assert found.trough == pytest.approx(3.5 * PERIOD, abs=PERIOD / 200)
 
     def test_of_irregular_waves(self, undamped: ow.Turbine) -> None:
         """The surface is nothing at the crossing, and never between it and the crest."""
-        waters = HydrodynamicModel.of(
+        hydrodynamics = HydrodynamicModel.of(
             undamped, ow.IrregularWaves(4.0, 9.0, seed=1, repeat_period=600.0)
         )
         time = np.arange(0, 600, 0.1)
-        crest = float(time[np.argmax(waters.surface.elevation(time))])
-        found = sea_data.phases(waters.surface, waters.surface.waves, crest)
-        assert abs(waters.surface.elevation(np.array([found.crossing]))[0]) < 1e-3
+        crest = float(time[np.argmax(hydrodynamics.surface.elevation(time))])
+        found = sea_data.phases(hydrodynamics.surface, hydrodynamics.surface.waves, crest)
+        assert abs(hydrodynamics.surface.elevation(np.array([found.crossing]))[0]) < 1e-3
         between = np.linspace(found.crossing + 1e-3, crest, 200)
-        assert np.all(waters.surface.elevation(between) > 0)
-        assert waters.surface.elevation(np.array([found.trough]))[0] < 0
+        assert np.all(hydrodynamics.surface.elevation(between) > 0)
+        assert hydrodynamics.surface.elevation(np.array([found.trough]))[0] < 0
         assert crest < found.trough < crest + 12
 
     def test_mean_period_is_that_of_the_moments(self, undamped: ow.Turbine) -> None:
-        waters = HydrodynamicModel.of(undamped, ow.RegularWaves(HEIGHT, PERIOD))
-        assert sea_data.mean_period(waters.surface.waves) == pytest.approx(PERIOD)
+        hydrodynamics = HydrodynamicModel.of(undamped, ow.RegularWaves(HEIGHT, PERIOD))
+        assert sea_data.mean_period(hydrodynamics.surface.waves) == pytest.approx(PERIOD)
 
     @pytest.mark.parametrize("angle", [0.0, 30.0, -120.0])
     @pytest.mark.parametrize("kind", [ow.RegularWaves, ow.StreamWaves])
@@ -90,8 +90,8 @@ class TestProfiles:
         """Velocity with the current at the crest, acceleration at the crossing, up to the level."""
         current = ow.PowerLawCurrent(0.7, 40.0)
         sea = ow.RegularWaves(HEIGHT, PERIOD, current=current, water_level=0.0)
-        waters = HydrodynamicModel.of(undamped, sea)
-        crest, crossing = sea_data.profiles(waters, sea, np.array([0.0, -PERIOD / 4]))
+        hydrodynamics = HydrodynamicModel.of(undamped, sea)
+        crest, crossing = sea_data.profiles(hydrodynamics, sea, np.array([0.0, -PERIOD / 4]))
         speed = airy(undamped, crest.height)
         flow = current.velocity(crest.height, DEPTH)[:, :2]
         assert_allclose(crest.velocity, np.column_stack([speed, 0 * speed]) + flow, atol=1e-9)
@@ -105,8 +105,8 @@ class TestProfiles:
         """Wheeler's and vertical profiles end at crest and trough with the value at the level."""
         for rule in ("wheeler", "vertical"):
             sea = ow.RegularWaves(HEIGHT, PERIOD, stretching=rule)
-            waters = HydrodynamicModel.of(undamped, sea)
-            crest, trough = sea_data.profiles(waters, sea, np.array([0.0, PERIOD / 2]))
+            hydrodynamics = HydrodynamicModel.of(undamped, sea)
+            crest, trough = sea_data.profiles(hydrodynamics, sea, np.array([0.0, PERIOD / 2]))
             assert crest.height[-1] == pytest.approx(HEIGHT / 2)
             assert trough.height[-1] == pytest.approx(-HEIGHT / 2)
             top = airy(undamped, np.zeros(1))[0]
@@ -192,8 +192,8 @@ class TestSpectrum:
         self, undamped: ow.Turbine, sea: ow.IrregularWaves
     ) -> None:
         """Welch's estimate over one whole repetition has the target's variance."""
-        waters = HydrodynamicModel.of(undamped, sea)
-        elevation = waters.surface.elevation(np.arange(0, 3600, 0.25))
+        hydrodynamics = HydrodynamicModel.of(undamped, sea)
+        elevation = hydrodynamics.surface.elevation(np.arange(0, 3600, 0.25))
         frequency, density = power_spectral_density(elevation, 0.25, 200.0)
         target = sea_data.target_density(sea, 30.0, 9.80665)
         assert target is not None
@@ -222,9 +222,9 @@ SEAS: dict[str, Sea] = {
 }
 
 
-def kernel_force(waters: HydrodynamicModel, time: float) -> Array:
+def kernel_force(hydrodynamics: HydrodynamicModel, time: float) -> Array:
     """(n, 3) of the load's own kernel on an upright structure at rest, in N."""
-    force = waters.wave_force()
+    force = hydrodynamics.wave_force()
     return force.forces(time, upright(force.height), 1.0).force
 
 
@@ -232,12 +232,12 @@ class TestForcePerLength:
     @pytest.mark.parametrize("name", SEAS)
     def test_integrates_to_the_forces_of_the_strips(self, undamped: ow.Turbine, name: str) -> None:
         """Resultant and moment are those of the load itself, along and across, at any time."""
-        waters = HydrodynamicModel.of(undamped, SEAS[name])
-        force = waters.wave_force()
+        hydrodynamics = HydrodynamicModel.of(undamped, SEAS[name])
+        force = hydrodynamics.wave_force()
         for along in (np.array([1.0, 0.0]), np.array([0.6, -0.8])):
             for time in (0.0, 1.3, 5.9):
                 found = sea_data.force_per_length(force, np.array([time]), along)
-                exact = kernel_force(waters, time)[:, :2] @ along
+                exact = kernel_force(hydrodynamics, time)[:, :2] @ along
                 assert_allclose(found.total[0] * found.length, exact, atol=1e-6 * abs(exact).max())
                 assert found.resultant[0] == pytest.approx(exact.sum(), rel=1e-9)
                 lever = found.height + DEPTH
@@ -253,14 +253,14 @@ class TestForcePerLength:
 
     def test_inertia_is_that_of_the_closed_form(self, undamped: ow.Turbine) -> None:
         """rho g Cm pi D^2/4 a tanh(kh), where the pile has one diameter (9 m) and Ca."""
-        waters = HydrodynamicModel.of(undamped, SEAS["level"])
-        assert np.ptp(waters.strips.diameter) < 1e-9
+        hydrodynamics = HydrodynamicModel.of(undamped, SEAS["level"])
+        assert np.ptp(hydrodynamics.strips.diameter) < 1e-9
         site = undamped.site
         k = wave_number(np.array([OMEGA]), DEPTH, site.gravity)[0]
-        mass = site.water_density * (1 + waters.added_mass[0]) * np.pi / 4
-        closed = mass * waters.strips.diameter[0] ** 2 * site.gravity * HEIGHT / 2
+        mass = site.water_density * (1 + hydrodynamics.added_mass[0]) * np.pi / 4
+        closed = mass * hydrodynamics.strips.diameter[0] ** 2 * site.gravity * HEIGHT / 2
         found = sea_data.force_per_length(
-            waters.wave_force(), np.array([-PERIOD / 4]), np.array([1.0, 0.0])
+            hydrodynamics.wave_force(), np.array([-PERIOD / 4]), np.array([1.0, 0.0])
         )
         inertia = float(found.inertia[0] @ found.length)
         assert inertia == pytest.approx(closed * np.tanh(k * DEPTH), rel=1e-4)
@@ -305,8 +305,8 @@ class TestFigures:
         sea = ow.RegularWaves(
             HEIGHT, PERIOD, stretching="wheeler", water_level=1.5, current=ow.UniformCurrent(1.0)
         )
-        waters = HydrodynamicModel.of(undamped, sea)
-        shown = sea_data.profiles(waters, sea, np.array([0.0, -PERIOD / 4, PERIOD / 2]))
+        hydrodynamics = HydrodynamicModel.of(undamped, sea)
+        shown = sea_data.profiles(hydrodynamics, sea, np.array([0.0, -PERIOD / 4, PERIOD / 2]))
         figure = sea_plots.kinematics(shown, np.array([1.0, 0.0]), -DEPTH, 1.5)
         speed, push = figure.axes
         curves = {str(line.get_label()): line for line in speed.lines}
@@ -318,8 +318,8 @@ class TestFigures:
         assert push.get_xlabel().endswith("m/s²")
 
     def test_forces_are_drawn_in_kilonewtons(self, undamped: ow.Turbine) -> None:
-        waters = HydrodynamicModel.of(undamped, SEAS["level"])
-        force, along = waters.wave_force(), np.array([1.0, 0.0])
+        hydrodynamics = HydrodynamicModel.of(undamped, SEAS["level"])
+        force, along = hydrodynamics.wave_force(), np.array([1.0, 0.0])
         worst = sea_data.force_per_length(force, np.array([-PERIOD / 4]), along)
         envelope = sea_data.force_envelope(force, np.arange(0, PERIOD, 0.05), along)
         instant, _ = sea_plots.force_over_height(worst, envelope, -DEPTH, 0.0).axes
@@ -362,17 +362,19 @@ class TestSection:
         """Read back from the tree, profiles, forces and spectra are those computed directly."""
         data = run.report().part("waves")
         assert data is not None
-        waters, sea = coarse.waters, coarse.sea
-        assert waters is not None
+        hydrodynamics, sea = coarse.hydrodynamics, coarse.sea
+        assert hydrodynamics is not None
         assert sea is not None
         shown = sea_data.profiles_of(data)
-        direct = sea_data.profiles(waters, sea, np.array([profile.time for profile in shown]))
+        direct = sea_data.profiles(
+            hydrodynamics, sea, np.array([profile.time for profile in shown])
+        )
         for found, expected in zip(shown, direct, strict=True):
             for name in ("height", "velocity", "acceleration", "current"):
                 assert_allclose(getattr(found, name), getattr(expected, name), rtol=1e-12)
-        along = sea_data.wave_direction(waters.surface.waves)
+        along = sea_data.wave_direction(hydrodynamics.surface.waves)
         worst = sea_data.worst_force_of(data)
-        expected = sea_data.force_per_length(waters.wave_force(), worst.time, along)
+        expected = sea_data.force_per_length(hydrodynamics.wave_force(), worst.time, along)
         assert_allclose(worst.total, expected.total)
         frequency, density = sea_data.spectrum_of(data, "target") or (None, None)
         target = sea_data.target_density(sea, 30.0, coarse.turbine.site.gravity)

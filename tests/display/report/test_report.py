@@ -16,7 +16,7 @@ import offwind_pin as ow
 from offwind_pin.analysis.drawing_data import sea_in_words
 from offwind_pin.analysis.sea_data import waves_dataset
 from offwind_pin.base.mode_labels import is_mode, mode_name
-from offwind_pin.cases.earthquake import Shaking, earthquake_dataset
+from offwind_pin.cases.earthquake import CaseEarthquake, earthquake_dataset
 from offwind_pin.cases.identification import summarise_identified
 from offwind_pin.cases.tower_top import synthetic_dataset
 from offwind_pin.display.report.case_report import SECTIONS, tables
@@ -103,7 +103,7 @@ def full(coarse: ow.System) -> Results:
         ),
         wind=synthetic_dataset(wind, coarse.turbine.rna),
         rotor=operating_rotor(),
-        earthquake=earthquake_dataset(Shaking(shaking(), ["a caution"], 9.81), modes),
+        earthquake=earthquake_dataset(CaseEarthquake(shaking(), ["a caution"], 9.81), modes),
         identified_modes=identified,
         settling=settling(),
     )

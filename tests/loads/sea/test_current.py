@@ -64,8 +64,8 @@ def test_tide_wets_more(oc6: ow.Turbine) -> None:
     """Two metres more of water: strips end there, and the drag grows with them."""
     sea = ow.StillWater(current=ow.UniformCurrent(1.5), water_level=2.0)
     system = ow.build(oc6, "clamped", sea, elements=20)
-    assert system.waters is not None
-    strips = system.waters.strips
+    assert system.hydrodynamics is not None
+    strips = system.hydrodynamics.strips
     assert strips.height[-1] + strips.length[-1] / 2 == pytest.approx(2.0)
     dry = ow.build(oc6, "clamped", elements=20)
     force = ow.static(system).mudline_load[0] - ow.static(dry).mudline_load[0]

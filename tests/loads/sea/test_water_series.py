@@ -165,4 +165,4 @@ def test_water_level_below_the_bed(oc6: ow.Turbine) -> None:
     shallow = oc6.replace(site=oc6.site.replace(water_depth=10.0))
     calm = ow.StillWater(water_level=-12.0)
     with pytest.raises(ow.InputError, match="water_level"):
-        ow.build(shallow, "clamped", calm).waters  # noqa: B018
+        ow.build(shallow, "clamped", calm).hydrodynamics  # noqa: B018

@@ -4,7 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
-from helpers.waters import upright
+from helpers.hydrodynamics import upright
 from scipy.integrate import quad
 
 import offwind_pin as ow

@@ -151,7 +151,7 @@ def pile_part(system: System) -> System:
         joint_stiffness=chain.joint_stiffness[:elements],
         body=(*chain.body[:elements], head),
         rna=lump_rna(turbine.rna),
-        sliding_mass=(),
+        tuned_masses=(),
     )
     return replace(
         system,

@@ -115,7 +115,7 @@ class FoundTarget:
 
 
 @dataclass(frozen=True, eq=False)
-class Identification:
+class SoilIdentification:
     """Outcome of an identification.
 
     Attributes
@@ -174,7 +174,7 @@ def identify_soil(
     elements: Elements = None,
     starts: int = 1,
     progress: Callable[[int, float], None] | None = None,
-) -> Identification:
+) -> SoilIdentification:
     """Fit numbers of a definition to responses by bounded least squares over the model itself.
 
     The sum of squared distances, each over its uncertainty, is made least by a trust-region method
@@ -306,7 +306,7 @@ class _Fit:
             )
         return np.array(columns).T
 
-    def outcome(self, shares: Array) -> Identification:
+    def outcome(self, shares: Array) -> SoilIdentification:
         distances = self.distances(shares)
         jacobian = self.central_differences(shares)
         _, values, combinations = np.linalg.svd(jacobian, full_matrices=True)
@@ -322,7 +322,7 @@ class _Fit:
         )
         total = float(distances @ distances)
         freedom = len(distances) - int(told.sum())
-        outcome = Identification(
+        outcome = SoilIdentification(
             turbine=self.changed(shares),
             parameters=found,
             targets=self._targets(distances),
@@ -385,7 +385,7 @@ def _unit(i: int, count: int) -> Array:
     return np.eye(count)[i]
 
 
-def _in_words(outcome: Identification) -> str:
+def _in_words(outcome: SoilIdentification) -> str:
     """What the data determine, which bounds hold, and whether the targets are met."""
     lines = []
     names = [found.parameter.name for found in outcome.parameters]

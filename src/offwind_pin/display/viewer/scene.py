@@ -81,7 +81,7 @@ def draw_bodies(view: Any, system: System, motion: ModeMotion) -> None:
 
 def draw_dampers(view: Any, system: System, motion: ModeMotion) -> None:
     """A disc for each tuned mass damper, wider than the structure."""
-    for d, mass in enumerate(system.chain.sliding_mass):
+    for d, mass in enumerate(system.chain.tuned_masses):
         radius, thickness = damper_disc(system.turbine, mass)
         ends = [circle(radius, -thickness / 2), circle(radius, thickness / 2)]
         part = view["dampers"][mass.name]
@@ -140,7 +140,7 @@ def _body_clips(view: Any, system: System, motion: ModeMotion) -> dict[Any, Any]
 def _damper_clips(view: Any, system: System, motion: ModeMotion) -> dict[Any, Any]:
     """Animation of each tuned mass damper, by its path."""
     clips = {}
-    for d, mass in enumerate(system.chain.sliding_mass):
+    for d, mass in enumerate(system.chain.tuned_masses):
         pose = motion.sliding[:, d]
         clips[view["dampers"][mass.name].path] = _clip(
             position=pose[:, :3, 3], quaternion=_quaternion(pose[:, :3, :3])

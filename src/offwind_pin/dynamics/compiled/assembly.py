@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from offwind_pin.dynamics.base_excitation import GROUND_NUMBERS, Grounding
+from offwind_pin.dynamics.base_excitation import GROUND_NUMBERS, BaseExcitation
 from offwind_pin.dynamics.compiled.ground import move_ground
 from offwind_pin.dynamics.compiled.model import NO_JOINT, Model, TunedMasses
 from offwind_pin.dynamics.compiled.newton_matrix import assemble
@@ -27,7 +27,7 @@ _NO_KERNEL = 0
 
 
 def make_model(
-    system: System, loads: Sequence[KernelLoad], root: KernelRestraint, ground: Grounding
+    system: System, loads: Sequence[KernelLoad], root: KernelRestraint, ground: BaseExcitation
 ) -> Model:
     """Model of a system under loads, its root held by a restraint if it has joints.
 
@@ -95,7 +95,7 @@ def make_model(
 
 def _tuned_masses(system: System) -> TunedMasses:
     names, origin = system.chain.joint_name, system.chain.origin
-    sliding = system.chain.sliding_mass
+    sliding = system.chain.tuned_masses
     joints = [
         [
             names.index(mass.joint_names[mass.joints.index(joint)])

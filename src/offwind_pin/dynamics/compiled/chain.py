@@ -16,7 +16,7 @@ from numba.extending import overload
 from offwind_pin.base.definition import Array
 from offwind_pin.base.kernels import announce
 from offwind_pin.base.records import Count, Record
-from offwind_pin.dynamics.acting_loads import all_loads, grounding, smooth_ramp
+from offwind_pin.dynamics.acting_loads import all_loads, base_excitation_of, smooth_ramp
 from offwind_pin.dynamics.base_excitation import GROUND_NUMBERS
 from offwind_pin.dynamics.compiled.assembly import make_model
 from offwind_pin.dynamics.compiled.model import Data, Factorisation, Model, State
@@ -102,7 +102,7 @@ class CompiledChain:
         restraint = system.foundation.root
         root = FREE if restraint is None else restraint.compiled()
         self._root = root  # known to the model by its place in a register only
-        ground = grounding(system, self.loads, ground_motion)
+        ground = base_excitation_of(system, self.loads, ground_motion)
         self.model = make_model(system, self.loads, root, ground)
         self.data, self.state = Data.of(self.model), State.of(self.model)
         self.factors = Factorisation.of(self.model)

@@ -19,8 +19,8 @@ import pinocchio as pin
 from offwind_pin.base.definition import Array
 from offwind_pin.dynamics.acting_loads import (
     all_loads,
+    base_excitation_of,
     compiled_loads,
-    grounding,
     smooth_ramp,
     split_memory,
 )
@@ -79,7 +79,7 @@ class Equations:
         self.loads = compiled_loads(all_loads(system, loads))
         self.model, self.data = system.pin_model, system.scratch.data
         self._ground_motion = ground_motion
-        self._grounding = grounding(system, self.loads, ground_motion)
+        self._base_excitation = base_excitation_of(system, self.loads, ground_motion)
         if ground_motion is not None:
             self.model = pin.Model(system.pin_model)  # its gravity will change
         heights = [np.zeros(0), *(load.height for load in self.loads)]
@@ -149,8 +149,8 @@ class Equations:
 
     def acceleration(self, time: float, q: Array, v: Array) -> Array:
         """(nv,) acceleration that satisfies the equations."""
-        lack = self.residual(time, q, v, np.zeros_like(q))
-        return np.asarray(-np.linalg.solve(self.mass(q, time), lack))
+        rhs = self.residual(time, q, v, np.zeros_like(q))
+        return np.asarray(-np.linalg.solve(self.mass(q, time), rhs))
 
     def evaluate(self, time: float, q: Array, v: Array, a: Array) -> Evaluation:
         """Motion of the chain and of the loaded points, and every point force.
@@ -187,8 +187,8 @@ class Equations:
     def _ground(self, time: float) -> Array:
         """(P + 1, 3, 3) ground's displacement, velocity, acceleration at points and base."""
         if self._ground_motion is None:
-            return self._grounding.at(np.zeros((0, 3, 3)))
-        return self._grounding.at(self._ground_motion.motion(np.array([time]))[0])
+            return self._base_excitation.at(np.zeros((0, 3, 3)))
+        return self._base_excitation.at(self._ground_motion.motion(np.array([time]))[0])
 
     def _lean(self, time: float) -> None:
         """Let gravity pull as it does seen from a base that accelerates."""

@@ -40,5 +40,5 @@ def sliding_mass_poses(system: System, q: Array) -> Array:
 
     model, data = system.pin_model, system.scratch.data
     pin.forwardKinematics(model, data, q)
-    joints = [model.getJointId(mass.joint_names[-1]) for mass in system.chain.sliding_mass]
+    joints = [model.getJointId(mass.joint_names[-1]) for mass in system.chain.tuned_masses]
     return np.array([data.oMi[joint].homogeneous for joint in joints]).reshape(-1, 4, 4)

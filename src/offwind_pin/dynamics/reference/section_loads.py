@@ -61,7 +61,7 @@ def _needed_above(equations: Equations, body: int, height: float) -> Array:
     further = [joint + 1] if body < chain.elements else []
     further += [
         model.getJointId(mass.joint_names[0])
-        for mass in chain.sliding_mass
+        for mass in chain.tuned_masses
         if mass.body == body and height <= mass.height
     ]
     for other in further:

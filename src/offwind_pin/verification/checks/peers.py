@@ -16,7 +16,7 @@ from offwind_pin.definitions.rotor_nacelle import RigidBody, lump_rna, point_ine
 from offwind_pin.definitions.turbine import RigidBodyRNA
 from offwind_pin.dynamics.system import System
 from offwind_pin.structure.section import diameter_and_thickness
-from offwind_pin.structure.urdf import write_urdf
+from offwind_pin.structure.urdf import urdf_text
 from offwind_pin.verification.ledger import Found
 
 _OPTIONS = (
@@ -35,7 +35,7 @@ def _mujoco(foundation: str) -> tuple[float, float]:
     import mujoco
 
     system = build(load_turbine("oc6_phase2"), foundation)
-    text = write_urdf(system.turbine, system.chain)
+    text = urdf_text(system.turbine, system.chain)
     text = text.replace('<link name="world" />', f'{_OPTIONS}<link name="world" />', 1)
     model = mujoco.MjModel.from_xml_string(text)
     model.opt.gravity[:] = [0.0, 0.0, -system.turbine.site.gravity]

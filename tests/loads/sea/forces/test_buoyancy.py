@@ -8,8 +8,8 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from helpers.hydrodynamics import SteadyWater
 from helpers.numerics import fitted_order
-from helpers.waters import SteadyWater
 
 from offwind_pin.base.definition import Array
 from offwind_pin.loads.point_load import PointMotion

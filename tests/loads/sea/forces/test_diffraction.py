@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from helpers.waters import RegularWater, upright
+from helpers.hydrodynamics import RegularWater, upright
 from scipy.special import jv, yv
 
 import offwind_pin as ow
@@ -104,12 +104,12 @@ def test_a_sea_s_harmonics_are_each_diffracted(oc6: ow.Turbine) -> None:
     time = np.arange(3000) / 10.0
     spectra = []
     for name in ("maccamy_fuchs", "none"):
-        waters = diffracted(oc6, name)
-        n = len(waters.strips.height)
-        rows = waters.wave_force().time_inputs(time, np.ones(len(time)))
+        hydrodynamics = diffracted(oc6, name)
+        n = len(hydrodynamics.strips.height)
+        rows = hydrodynamics.wave_force().time_inputs(time, np.ones(len(time)))
         pushed = rows[:, 1 + 3 * n :].reshape(-1, n, 3)[:, :, [0, 2]]
         spectra.append(np.fft.rfft(pushed, axis=0))
-        assert np.all(waters.wave_force().time_inputs(time[:1], np.zeros(1)) == 0)
+        assert np.all(hydrodynamics.wave_force().time_inputs(time[:1], np.zeros(1)) == 0)
     harmonic = np.arange(21, 240)
     omega = 2 * np.pi * harmonic / 300.0
     k = wave_number(omega, 30.0, GRAVITY)

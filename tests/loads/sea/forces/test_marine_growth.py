@@ -94,12 +94,12 @@ def test_without_growth_bodies_are_the_same_to_the_last_bit(oc6: ow.Turbine) -> 
 
 def test_loads_see_the_larger_diameter(oc6: ow.Turbine, grown: ow.Turbine) -> None:
     """Added mass, inertia and drag on D + 2 t; the layer's own drag coefficient where it has one."""
-    waters = HydrodynamicModel.of(grown, ow.StillWater())
-    z = waters.strips.height
+    hydrodynamics = HydrodynamicModel.of(grown, ow.StillWater())
+    z = hydrodynamics.strips.height
     diameter = np.where(z < -10, 9.2, 9.1)
     drag = np.where(z < -10, 1.2, 1.0)
-    assert waters.strips.diameter == pytest.approx(diameter, rel=1e-14)
-    assert waters.drag.tolist() == drag.tolist()
+    assert hydrodynamics.strips.diameter == pytest.approx(diameter, rel=1e-14)
+    assert hydrodynamics.drag.tolist() == drag.tolist()
     added, wave, *rest = HydrodynamicModel.of(grown, ow.StillWater()).loads()
     assert rest == []
     assert isinstance(added, AddedMass)

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from helpers.waters import SteadyWater, upright
+from helpers.hydrodynamics import SteadyWater, upright
 from scipy.integrate import solve_ivp
 
 from offwind_pin.base.definition import Array

@@ -4,8 +4,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
+from helpers.hydrodynamics import RegularWater, SteadyWater, upright
 from helpers.numerics import fitted_order
-from helpers.waters import RegularWater, SteadyWater, upright
 
 from offwind_pin.base.definition import Array
 from offwind_pin.loads.point_load import PointMotion

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
-from helpers.waters import RegularWater, upright
+from helpers.hydrodynamics import RegularWater, upright
 
 from offwind_pin.base.definition import Array
 from offwind_pin.loads.sea.forces.morison import MorisonForce

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from helpers.waters import RegularWater, SteadyWater, upright
+from helpers.hydrodynamics import RegularWater, SteadyWater, upright
 
 from offwind_pin.base.definition import Array
 from offwind_pin.loads.sea.forces.added_mass import AddedMass, SplashAddedMass
