@@ -59,7 +59,7 @@ def row(case: OperationalCase, stretching: str, whole: float, repeats: int) -> d
     sea = case.system.sea
     if not isinstance(sea, ow.IrregularWaves):
         raise TypeError(f"{NAME} is no longer a case in irregular waves")
-    long = sea.model_copy(update={"repeat_period": whole, "stretching": stretching})
+    long = sea.replace(repeat_period=whole, stretching=stretching)
     turbine = case.system.turbine
     running = replace(case, system=replace(case.system, sea=long))
     hydrodynamics = HydrodynamicModel.of(turbine, long)

@@ -149,7 +149,7 @@ def test_fingerprints_of_a_system(oc6: ow.Turbine) -> None:
     first = found(sea)
     assert found(sea) == first
     assert len(set(first)) == len(first)
-    reseeded = found(sea.model_copy(update={"seed": 4}))
+    reseeded = found(sea.replace(seed=4))
     assert reseeded[0] == first[0]  # added mass in still water
     assert reseeded[1] != first[1]
     assert found(sea, 0.5)[-1] != first[-1]
