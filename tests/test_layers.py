@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import graphlib
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -54,6 +55,7 @@ FACE = {"__init__", "__main__"}
 """Top-level files that may import every room."""
 
 
+@cache
 def _modules() -> dict[str, Path]:
     """Every module of the package by its full name."""
     return {

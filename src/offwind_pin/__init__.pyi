@@ -59,6 +59,7 @@ from offwind_pin.soil import FrequencyTarget as FrequencyTarget
 from offwind_pin.soil import Parameter as Parameter
 from offwind_pin.soil import Pushover as Pushover
 from offwind_pin.soil import ShapeTarget as ShapeTarget
+from offwind_pin.soil import SoilIdentification as Identification  # noqa: F401
 from offwind_pin.soil import SoilOverview as SoilOverview
 from offwind_pin.soil import condense as condense
 from offwind_pin.soil import equivalent_damping as equivalent_damping

@@ -163,7 +163,7 @@ class PointTangents:
         return np.stack(whole, axis=1)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Channel:
     """A quantity over time that a load adds to the results.
 
@@ -179,6 +179,8 @@ class Channel:
     dims: tuple[str, ...]
     units: str
     long_name: str
+
+    __repr__ = one_line
 
 
 class PointLoad(ABC):

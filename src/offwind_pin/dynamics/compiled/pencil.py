@@ -23,7 +23,7 @@ class CompiledPencil:
 
     def __init__(self, chain: CompiledChain, q: Array) -> None:
         self._chain = chain
-        self._time_inputs = chain.time_inputs(np.zeros(1))[0]
+        self._time_inputs = chain.mean_inputs()
         self._q, self._rest = q, np.zeros_like(q)
         chain.residual(self._time_inputs, q, self._rest, self._rest)
         self._factors: dict[tuple[float, float], Factorisation] = {}

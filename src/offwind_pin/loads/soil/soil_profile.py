@@ -8,11 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from offwind_pin.base.definition import Array
+from offwind_pin.base.descriptions import one_line
 from offwind_pin.definitions.soil.layers import SoilLayer
 from offwind_pin.loads.soil.curves.soil_curve import ON_BOUNDARY, Places
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class PileNodes:
     """Nodes of a pile below the mudline.
 
@@ -28,6 +29,8 @@ class PileNodes:
     diameter: Array
     length: float
     scour: float = 0.0
+
+    __repr__ = one_line
 
     @property
     def original_depth(self) -> Array:

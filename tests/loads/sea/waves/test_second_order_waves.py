@@ -423,7 +423,7 @@ def test_free_waves_of_its_frequencies() -> None:
 
 
 @dataclass(frozen=True)
-class BoundWaves(ow.IrregularWaves):
+class BoundWaves(ow.IrregularWaves, kw_only=False):
     def waves(self, depth: float, gravity: float) -> SecondOrderWaves:  # type: ignore[override]
         return SecondOrderWaves(super().waves(depth, gravity))
 
