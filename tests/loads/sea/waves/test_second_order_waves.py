@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -422,8 +422,7 @@ def test_free_waves_of_its_frequencies() -> None:
     assert SHORT_CRESTED.first_order is SHORT_CRESTED
 
 
-@dataclass(frozen=True)
-class BoundWaves(ow.IrregularWaves, kw_only=False):
+class BoundWaves(ow.IrregularWaves):
     def waves(self, depth: float, gravity: float) -> SecondOrderWaves:  # type: ignore[override]
         return SecondOrderWaves(super().waves(depth, gravity))
 
