@@ -57,7 +57,7 @@ def main(argv: list[str] | None = None) -> dict[str, Any]:
 
 
 def measure(processes: int, cases: int, seconds: float, repeats: int) -> dict[str, Any]:
-    """Cases an hour over a number of processes, after the start, which is told apart."""
+    """Cases per hour on several processes, excluding the start, reported separately."""
     spawn = multiprocessing.get_context("spawn")
     begun = time.perf_counter()
     with ProcessPoolExecutor(

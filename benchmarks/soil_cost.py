@@ -2,7 +2,7 @@
 
 A step is one of :func:`offwind_pin.simulate` with all that the call does. All grounds take their
 turn in each round. Of a step, the part of the soil's tangents is measured by itself: calls of the
-loads' own kernels in a row, times how often a step needs the iteration matrix anew.
+loads' own kernels in a row, times how often a step rebuilds the iteration matrix.
 """
 
 from __future__ import annotations

@@ -179,7 +179,7 @@ def study(
 def environment(
     case: Case, turbine: ow.Turbine, analysis: TransientAnalysis, seed: int
 ) -> tuple[ow.IrregularWaves, ow.LoadHistory]:
-    """Waves and tower-top load of a case, drawn anew."""
+    """Waves and tower-top load of a case for another seed."""
     sea, load = case.sea, case.tower_top_load
     if not isinstance(sea, ow.IrregularWaves) or not isinstance(load, ow.SyntheticWind):
         raise TypeError("the case has no irregular waves or no synthetic wind")

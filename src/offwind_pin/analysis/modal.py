@@ -183,7 +183,9 @@ def modes(
     state = about or static(system, engine=engine)
     if state.q.shape != (system.nv,):
         allowed = f"a static state of this system, with {system.nv} degrees of freedom"
-        raise InputError("about", f"one with {len(state.q)}", allowed, "Solve statics anew.")
+        raise InputError(
+            "about", f"one with {len(state.q)}", allowed, "Solve the static state again."
+        )
     linear = pencil(system, state, engine)
     # One mode more than asked for, so that no pair of equal frequency is cut in two; and more where
     # dampers split modes, so that labels do not depend on how many are asked for.

@@ -78,8 +78,7 @@ def simulate(
     loads : what acts: at the yaw bearing a constant load (6,) Fx, Fy, Fz, Mx, My, Mz in N and N m
         or a history, whose mean is taken over the time after the ramp; or point loads of one's own
     ramp : seconds over which the fluctuations rise
-    start : ``"static"``, or ``"undeformed"`` for a structure that gravity and mean loads seize at
-        time 0
+    start : ``"static"``, or ``"undeformed"``: gravity and mean loads are applied at t = 0
     ground_motion : an earthquake, at its own times whatever the ramp; displacements and
         accelerations are recorded as they are absolutely, not relative to the ground
     output_dt : interval of the output in s, a multiple of dt; by default every step
@@ -321,7 +320,7 @@ def _folder_store(
 
     Raises
     ------
-    InputError : blocks of another run, or of one that cannot be told from others
+    InputError : blocks of another run, or of a run that cannot be identified
     """
     unknown = None
     try:
@@ -355,7 +354,7 @@ def _fingerprint(chain: CompiledChain, sections: Sections) -> str:
                 f"{error} among the attributes",
                 "numbers, texts, arrays and objects made of them",
                 "Give the class a method fingerprint() -> str that hashes what determines its "
-                "forces, or delete the directory to start anew.",
+                "forces, or delete the directory to start again.",
             ) from None
     return content_hash(
         found,

@@ -203,7 +203,7 @@ def static(
     if after is not None:
         if after.q.shape != rest.shape or after.memory.shape != chain.memory.shape:
             allowed = "a state of the same system under loads of the same kinds"
-            raise InputError("after", "another system's", allowed, "Solve that state anew.")
+            raise InputError("after", "another system's", allowed, "Solve that state again.")
         chain.memory = after.memory
 
     def correction(q: Array, residual: Array) -> Array:

@@ -1,4 +1,4 @@
-"""What is told of realised waves, and what a simulation refuses of them."""
+"""Statistics of the realised waves, and the waves that a simulation refuses."""
 
 from __future__ import annotations
 

@@ -87,7 +87,7 @@ class OperationalModesSettings(Definition):
 class ModalAnalysis(Definition):
     """Natural modes about the static state under gravity.
 
-    identify : whether the fore-aft modes are taken out of accelerations as well
+    identify : settings of an operational modal analysis of the fore-aft modes, or None
     engine : what evaluates the equations of motion
     """
 

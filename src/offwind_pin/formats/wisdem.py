@@ -9,7 +9,7 @@ told to it as springs with which that very pile, condensed to the mudline, is th
 itself brings the coupling of sway and rocking.
 
 In the group ``MonopileSE`` both inputs are connected to ``soil.z_k`` and ``soil.k`` of
-``TowerSoil`` (``wisdem/commonse/environment.py``), which computes them anew at each run; its own
+``TowerSoil`` (``wisdem/commonse/environment.py``), which recomputes them at each run; its own
 override ``k_usr`` is one value for all nodes. Numbers set there by name do not last: see
 docs/pile.md for a component in its place. In a problem of ``MonopileFrame`` alone they are free
 inputs, ``prob["z_soil"]`` and ``prob["k_soil"]``. The stiffness of axial load, ``geom`` of

@@ -132,7 +132,7 @@ class FolderStore:
                 str(self.folder),
                 f"blocks of another run (other {', '.join(differs) or 'keys'})",
                 "blocks of this run, to go on from",
-                "Delete the folder to start anew, or name another directory.",
+                "Delete the folder to start again, or name another directory.",
             )
 
 
@@ -149,5 +149,5 @@ def _read_block(path: Path) -> Block:
         with path.open("rb") as raw, np.load(raw, allow_pickle=False) as file:
             return {name: file[name] for name in file.files}
     except (OSError, ValueError, zipfile.BadZipFile) as error:
-        remedy = "Delete the folder to start anew."
+        remedy = "Delete the folder to start again."
         raise InputError(str(path), str(error), "a whole block of results", remedy) from None

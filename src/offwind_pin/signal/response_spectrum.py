@@ -1,4 +1,4 @@
-"""Response spectra of accelerograms, and what else is told of their strength."""
+"""Response spectra and intensity measures of accelerograms."""
 
 from __future__ import annotations
 

@@ -34,7 +34,7 @@ class Equilibrium(Protocol):
     def factorise(
         self, row: Array, q: Array, v: Array, a: Array, dv_dq: float, da_dq: float
     ) -> None:
-        """Make the matrix da_dq dr/da + dv_dq dr/dv + dr/dq anew; it may be approximate."""
+        """Make the matrix da_dq dr/da + dv_dq dr/dv + dr/dq; it may be approximate."""
 
     def correction(self, residual: Array) -> Array:
         """(n,) solution of the iteration matrix for a right side."""
@@ -62,7 +62,7 @@ class Method(NamedTuple):
         exceeds the first times the scale, and the correction that it still asks for nowhere the
         second; the predictor is corrected once at least
     max_iterations : a step that needs more has failed
-    slow : ratio of successive corrections above which the iteration matrix is made anew
+    slow : ratio of successive corrections above which the iteration matrix is rebuilt
     """
 
     step: float
@@ -104,7 +104,7 @@ def advance(
 ) -> tuple[int, int, float]:
     """Take a step for each row of time inputs, changing the state (6, n).
 
-    The iteration matrix is made anew at the first step, and when corrections shrink too slowly.
+    The iteration matrix is rebuilt at the first step, and when corrections shrink too slowly.
 
     Returns
     -------

@@ -1,6 +1,6 @@
 """The verification ledger: rows, and what was found when they were checked.
 
-A row names a function of ``verification/checks`` that computes the quantity anew. Tests, the
+A row names a function of ``verification/checks`` that recomputes the quantity. Tests, the
 ``offwind verify`` command and the page that is rendered read the same rows: a tolerance is written
 once, in ``ledger.yaml``.
 """
@@ -160,7 +160,7 @@ def choose(pattern: str | None) -> tuple[Row, ...]:
 
 
 def check(row: Row) -> Outcome:
-    """Compute a row anew and compare."""
+    """Recompute a row and compare."""
     missing = None if row.needs is None else _missing(row.needs)
     if missing is not None:
         return Outcome(row, None, row.reference, "not run", missing)

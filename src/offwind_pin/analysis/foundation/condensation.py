@@ -108,7 +108,9 @@ def condense(
         raise InputError("stiffness", stiffness, allowed, "Choose one of them.")
     if about.q.shape != (system.nv,):
         allowed = f"a static state of this system, with {system.nv} degrees of freedom"
-        raise InputError("about", f"one with {len(about.q)}", allowed, "Solve statics anew.")
+        raise InputError(
+            "about", f"one with {len(about.q)}", allowed, "Solve the static state again."
+        )
     pile = pile_part(system)
     q, rest = about.q[: pile.nv], np.zeros(pile.nv)
     load = about.mudline_load
@@ -119,7 +121,9 @@ def condense(
     lack = float(np.max(np.abs(equations.residual(0.0, q, rest, rest)))) / load_scale(system)
     if lack > _OUT_OF_BALANCE:
         allowed = "a static state of this system, in balance"
-        raise InputError("about", f"{lack:.2g} of the loads", allowed, "Solve statics anew.")
+        raise InputError(
+            "about", f"{lack:.2g} of the loads", allowed, "Solve the static state again."
+        )
     if stiffness == "secant":
         motion = equations.chain_motion(q, rest)
         soil = tuple(

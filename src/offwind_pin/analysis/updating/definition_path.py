@@ -34,7 +34,7 @@ def number_at(definition: BaseModel, path: str) -> float:
 
 
 def with_number(definition: Model, path: str, value: float) -> Model:
-    """A copy with another number at a path, every block on the way to it validated anew.
+    """A copy with another number at a path, with every block on the path validated again.
 
     Raises
     ------

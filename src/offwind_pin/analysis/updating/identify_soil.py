@@ -25,7 +25,7 @@ UNTOLD = 1 / np.sqrt(12)
 not determine it: the standard deviation of a uniform distribution over the range, which is what the
 bounds say without any data."""
 NUMERICAL_RANK = 1e-6
-"""Singular value over the largest one that cannot be told from zero: the accuracy of differences
+"""Singular value over the largest one no different from zero: the accuracy of differences
 of responses that are solved to 1e-10."""
 SIGNIFICANCE = 0.05
 """Probability of a larger chi-square below which the targets do not fit together in the model."""

@@ -33,7 +33,7 @@ from offwind_pin.dynamics.system import System
 _FIELD_OF_VIEW_DEG = 24.0
 _VIEW_DEG = {"FA": (-124.0, 7.0), "SS": (-150.0, 7.0), "T": (-140.0, 14.0), "V": (-124.0, 7.0)}
 """Azimuth of the camera from the x axis, and its elevation: each motion is seen nearly broadside,
-from upwind, with the rotor turned enough to be told from a line."""
+from upwind, with the rotor turned enough to be recognisable."""
 
 
 def animate(system: System, result: ModalResult, label: str) -> str:

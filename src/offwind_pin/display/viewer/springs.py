@@ -77,7 +77,7 @@ def foundation_springs(system: System, lateral: Array) -> list[Spring]:
 
 
 def node_step(soil: SoilSprings, structure_height: float) -> int:
-    """How many soil nodes lie from one drawn spring to the next, so that they can be told apart.
+    """How many soil nodes lie from one drawn spring to the next, so that they can be distinguished.
 
     It divides the pile evenly: the first and the last node are always drawn.
     """

@@ -149,7 +149,7 @@ def _begins_table(row: str) -> bool:
 
 
 class _Bytes:
-    """A file's content, taken piece by piece; every lack is told with what was being read."""
+    """Content of a file, read in sequence; an error for missing bytes names what was being read."""
 
     def __init__(self, path: Path, content: bytes) -> None:
         self.path = path

@@ -49,7 +49,7 @@ def read_columns(path: Path, unit: Unit, components: Sequence[Axis]) -> Accelero
 
     Raises
     ------
-    InputError : a missing, empty or truncated file; a cell that is no number; times that do not
+    InputError : a missing, empty or truncated file; a cell that is not a number; times that do not
         rise or leave a gap; an axis named twice
     """
     check_components(components)
@@ -91,7 +91,7 @@ def read_at2(path: Path) -> tuple[float, Array, str]:
 
     Raises
     ------
-    InputError : no such header, another unit, a cell that is no number, or a wrong number of them
+    InputError : no such header, another unit, a cell that is not a number, or a wrong count
     """
     text = read_text(path)
     lines = text.splitlines()

@@ -123,7 +123,7 @@ def _table(path: Path) -> tuple[list[str], list[int], Array]:
     except ValueError:
         rows = np.empty((0, 0))
     if rows.shape != (len(texts), len(header)) or not np.all(np.isfinite(rows)):
-        # Slowly, cell by cell: quoted numbers are read, and a fault is told with its line.
+        # Slowly, cell by cell: quoted numbers are read, and an error names its line.
         cells = (next(csv.reader([text])) for text in texts)
         rows = np.array(
             [
@@ -157,7 +157,7 @@ def _is_number(cell: str) -> bool:
 
 
 def _check_times(path: Path, time: Array, lines: list[int]) -> None:
-    """Even steps; what differs is told with its line, a gap as a gap."""
+    """Check for even steps; the error names the line, and whether it is a gap."""
     steps = np.diff(time)
     step = float(np.median(steps))
     falls = np.flatnonzero(steps <= 0)

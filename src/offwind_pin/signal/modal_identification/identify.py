@@ -1,4 +1,4 @@
-"""Modes out of accelerations under excitation that nobody measured: operational modal analysis."""
+"""Modes from accelerations under unmeasured excitation: operational modal analysis."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ _FEW_AVERAGES = 20.0
 _CLOSE = 0.1
 """Second singular value over the first at a peak, above which two modes share it."""
 _COMPLEX = 0.02
-"""Complexity above which a shape is told not to be real."""
+"""Complexity above which a shape is reported as not real."""
 _UNCERTAIN = 0.15
 """Expected scatter of a damping ratio, over it, above which a longer record is asked for."""
 

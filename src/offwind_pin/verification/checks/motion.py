@@ -94,13 +94,13 @@ def load_case_settled(name: str) -> float:
 
 
 def load_case_identified(name: str, mode: str, quantity: str) -> Found:
-    """Frequency or damping ratio of a mode out of accelerations, and of the eigenanalysis."""
+    """Frequency or damping ratio of a mode from accelerations, and from the eigenanalysis."""
     row = _identified(name, mode)
     return Found(float(row[quantity]), float(row[f"eigenanalysis_{quantity}"]))
 
 
 def load_case_assurance(name: str, mode: str) -> float:
-    """Modal assurance of a shape out of accelerations and the computed one."""
+    """Modal assurance criterion of a shape from accelerations and the computed one."""
     return float(_identified(name, mode)["modal_assurance"])
 
 

@@ -137,7 +137,7 @@ class SoilOverview:
 
     @property
     def damping_depth(self) -> float:
-        """Depth below the mudline in m of the spring whose damping is told."""
+        """Depth below the mudline in m of the spring whose damping is reported."""
         return float(self.depth[damping_node(self.lateral, self.depth, self.head_diameter)])
 
     def lateral_curves(self) -> list[tuple[float, float, float]]:

@@ -16,7 +16,7 @@ with the wave vector K = k_n + s k_m and kappa = |K|. The solution is
 
 with the conjugate of a_m for differences, and f = 1, or 1/2 for a wave with itself. It is that of
 Longuet-Higgins and Stewart (J. Fluid Mech. 13, 1962, 481) and of Sharma and Dean (Soc. Petroleum
-Eng. J. 21, 1981, 129), derived here anew.
+Eng. J. 21, 1981, 129), derived independently here.
 """
 
 from __future__ import annotations
