@@ -25,8 +25,10 @@ class FoundationKind:
 
     Attributes
     ----------
-    make : the foundation of a turbine
-    is_described : whether a turbine's soil has the numbers for it
+    make : callable
+        The foundation of a turbine.
+    is_described : callable
+        Whether a turbine's soil has the numbers for it.
     """
 
     make: Callable[[Turbine], Foundation]
@@ -48,12 +50,15 @@ def register_foundation(
 
     Parameters
     ----------
-    make : the foundation of a turbine; raises :class:`InputError` where the turbine lacks something
-    is_described : whether a turbine's soil has the numbers for it; always unless given
+    make : callable
+        The foundation of a turbine; raises :class:`InputError` where the turbine lacks something.
+    is_described : callable, optional
+        Whether a turbine's soil has the numbers for it; always unless given.
 
     Raises
     ------
-    InputError : another kind has the name
+    InputError
+        Another kind has the name.
     """
     if name in FOUNDATIONS and FOUNDATIONS[name].make is not make:
         raise InputError(
@@ -67,7 +72,8 @@ def make_foundation(turbine: Turbine, kind: str | Foundation) -> Foundation:
 
     Raises
     ------
-    InputError : no foundation of that name, or the turbine lacks what it needs
+    InputError
+        No foundation of that name, or the turbine lacks what it needs.
     """
     if isinstance(kind, Foundation):
         foundation = kind
