@@ -28,8 +28,8 @@ def build(
     Parameters
     ----------
     foundation : str or Foundation
-        ``"clamped"``, ``"apparent_fixity"``, ``"coupled_springs"``, ``"distributed_springs"`` or
-        ``"macro_element"``, a name given to ``register_foundation``, or a :class:`Foundation`.
+        A name, ``"clamped"`` for example, of the kinds in
+        :mod:`offwind_pin.analysis.foundation.registry`, or a :class:`Foundation`.
     sea : Sea, optional
         :class:`StillWater`, :class:`IrregularWaves`, or None for a dry structure.
     elements : int, dict of str to int, or None

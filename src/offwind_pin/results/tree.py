@@ -34,7 +34,6 @@ def make_tree(root: xr.Dataset, groups: Mapping[str, xr.Dataset]) -> xr.DataTree
     Parameters
     ----------
     root : Dataset
-        Dataset.
     groups : mapping of str to Dataset
         Datasets by path, such as ``modes`` or ``static/clamped``, with plain dimensions.
     """
