@@ -49,12 +49,34 @@ FORMATS = (".svg", ".pdf", ".png")
 
 
 def mode_shapes(system: System, modes: ModalResult) -> Figure:
-    """Unit-peak shapes over height, a panel for each family."""
+    """Unit-peak shapes over height, a panel for each family.
+
+    Parameters
+    ----------
+    system : System
+    modes : ModalResult
+        Modes of the system.
+
+    Returns
+    -------
+    Figure
+    """
     return pictures.mode_shapes(modes, system.turbine.site.mudline, water=_water(system))
 
 
 def static_states(system: System, states: Mapping[str, StaticResult]) -> Figure:
-    """Deflected shapes and section moments of static states over height, by name."""
+    """Deflected shapes and section moments of static states over height, by name.
+
+    Parameters
+    ----------
+    system : System
+    states : mapping of str to StaticResult
+        By name in the legend.
+
+    Returns
+    -------
+    Figure
+    """
     return pictures.statics(states, water=_water(system))
 
 
@@ -75,6 +97,10 @@ def psd(
     segment : float, s
         Of Welch's windows.
 
+    Returns
+    -------
+    Figure
+
     Raises
     ------
     InputError
@@ -89,12 +115,32 @@ def psd(
 
 
 def section_load_envelope(results: xr.Dataset) -> Figure:
-    """Smallest, mean and largest section loads over height after the ramp."""
+    """Smallest, mean and largest section loads over height after the ramp.
+
+    Parameters
+    ----------
+    results : Dataset
+        Of :func:`simulate`.
+
+    Returns
+    -------
+    Figure
+    """
     return pictures.section_load_envelope(results)
 
 
 def time_histories(results: xr.Dataset) -> Figure:
-    """Panel of the waves, the tower top and the moment at the mudline over time."""
+    """Panel of the waves, the tower top and the moment at the mudline over time.
+
+    Parameters
+    ----------
+    results : Dataset
+        Of :func:`simulate`.
+
+    Returns
+    -------
+    Figure
+    """
     return pictures.time_histories(results)
 
 
@@ -102,6 +148,16 @@ def p_y_utilisation(system: System, state: StaticResult | xr.Dataset) -> Figure:
     """Displacement, secant stiffness and utilisation of the p-y springs along the pile.
 
     state : a static one, or a run's results, of which the largest displacements are taken
+
+    Parameters
+    ----------
+    system : System
+    state : StaticResult or Dataset
+        Static state, or time histories.
+
+    Returns
+    -------
+    Figure
 
     Raises
     ------
@@ -138,12 +194,28 @@ def singular_values(modes: OperationalModes, *, highest: float | None = None) ->
     """All singular values of the accelerations' cross-spectra, one below another over frequency.
 
     highest : end of the frequency axis in Hz, by default three times the highest mode found
+
+    Parameters
+    ----------
+    modes : OperationalModes
+    highest : float, Hz, optional
+        End of the frequency axis.
+
+    Returns
+    -------
+    Figure
     """
     return singular_value_plot(modes, highest)
 
 
 def save(figure: Figure, path: Path | str) -> None:
     """Write a picture, whole or not at all: ``.svg`` and ``.pdf`` in lines, ``.png`` in dots.
+
+    Parameters
+    ----------
+    figure : Figure
+    path : Path or str
+        File with the ending of a format, such as ``.png``.
 
     Raises
     ------

@@ -31,10 +31,16 @@ def mode_shapes(system: System, modes: ModalResult, labels: Sequence[str] | None
 
     Parameters
     ----------
+    system : System
     modes : ModalResult
         Of this system.
     labels : sequence of str, optional
         Modes shown first, such as ``["FA1", "SS1"]``; by default the first that bend.
+
+    Returns
+    -------
+    str
+        HTML text.
 
     Raises
     ------
@@ -56,6 +62,11 @@ def time_history(
         Of :func:`simulate`, or a directory of ``offwind run`` or its ``results.nc``.
     start, duration : float, s, optional
         Of the part shown; by default the first 60 s after the ramp.
+
+    Returns
+    -------
+    str
+        HTML text.
 
     Raises
     ------

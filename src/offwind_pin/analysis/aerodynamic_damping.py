@@ -47,6 +47,24 @@ def aerodynamic_damping(
 
     wind_speed : mean at the hub in m/s; control, control_time, inflow_lag : see ``RotorThrust``
 
+    Parameters
+    ----------
+    system : System
+    wind_speed : float, m/s
+        Mean wind speed at the hub.
+    control : {"lagged", "instant"}
+        As for :class:`RotorThrust`.
+    control_time : float, s
+        As for :class:`RotorThrust`.
+    inflow_lag : bool
+        As for :class:`RotorThrust`.
+    count : int
+        Number of modes.
+
+    Returns
+    -------
+    AerodynamicDamping
+
     Raises
     ------
     InputError

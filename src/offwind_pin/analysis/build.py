@@ -27,6 +27,7 @@ def build(
 
     Parameters
     ----------
+    turbine : Turbine
     foundation : str or Foundation
         A name, ``"clamped"`` for example, of the kinds in
         :mod:`offwind_pin.analysis.foundation.registry`, or a :class:`Foundation`.
@@ -39,6 +40,10 @@ def build(
         ``"flexibility"`` or ``"midpoint"``, see :func:`build_chain`.
     element : {"euler_bernoulli", "timoshenko"}
         ``"euler_bernoulli"``, or ``"timoshenko"`` for elements that shear as well.
+
+    Returns
+    -------
+    System
 
     Raises
     ------

@@ -77,12 +77,44 @@ class Integrator(Protocol):
         """State at time 0, at rest at joint displacements q; interval between outputs in s.
 
         What soil and foundation keep of their past is the chain's.
+
+        Parameters
+        ----------
+        chain : CompiledChain
+            Compiled equations of motion.
+        q : (nv,) array, m and rad
+            Joint displacements at rest.
+        interval : float, s
+            Output interval.
+
+        Returns
+        -------
+        MotionState
+            State at the start.
         """
 
     def advance(
         self, chain: CompiledChain, sections: Sections, state: MotionState, times: Array
     ) -> tuple[MotionState, Records]:
         """State at the last of the instants, and records at each of them.
+
+        Parameters
+        ----------
+        chain : CompiledChain
+            Compiled equations of motion.
+        sections : Sections
+            What is recorded.
+        state : MotionState
+            State at the last output.
+        times : (t,) array, s
+            Next outputs.
+
+        Returns
+        -------
+        state : MotionState
+            State at the last of them.
+        records : Records
+            Records at all of them.
 
         Raises
         ------
@@ -91,7 +123,13 @@ class Integrator(Protocol):
         """
 
     def describe(self) -> dict[str, Any]:
-        """Plain data for the results."""
+        """Plain data for the results.
+
+        Returns
+        -------
+        dict of str to object
+            Attributes for the results.
+        """
 
 
 class _Advanced(NamedTuple):
@@ -103,7 +141,7 @@ class _Advanced(NamedTuple):
 
 
 @dataclass(frozen=True)
-class GeneralizedAlpha:
+class GeneralizedAlpha(Integrator):
     """Generalised-alpha with modified Newton.
 
     Attributes
@@ -219,7 +257,7 @@ class GeneralizedAlpha:
 
 
 @dataclass(frozen=True)
-class SciPyIVP:
+class SciPyIVP(Integrator):
     """SciPy's solvers for stiff equations on the same equations of motion, by Pinocchio.
 
     The Jacobian is analytic. A second implementation rather than a fast one; the energies

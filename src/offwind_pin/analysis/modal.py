@@ -104,6 +104,16 @@ class ModalResult:
     def index(self, label: str) -> int:
         """Position of a label.
 
+        Parameters
+        ----------
+        label : str
+            Label such as ``"FA1"``.
+
+        Returns
+        -------
+        int
+            Index of the mode in the arrays.
+
         Raises
         ------
         InputError
@@ -116,7 +126,12 @@ class ModalResult:
         return self.label.index(label)
 
     def to_dataset(self) -> xr.Dataset:
-        """The modes as a labelled dataset."""
+        """The modes as a labelled dataset.
+
+        Returns
+        -------
+        Dataset
+        """
         from offwind_pin.results.states import modal_dataset
 
         return modal_dataset(
@@ -136,7 +151,17 @@ class ModalResult:
 
     @staticmethod
     def from_dataset(data: xr.Dataset) -> ModalResult:
-        """Modes read back from :meth:`to_dataset`."""
+        """Modes read back from :meth:`to_dataset`.
+
+        Parameters
+        ----------
+        data : Dataset
+            From :meth:`to_dataset`.
+
+        Returns
+        -------
+        ModalResult
+        """
         return ModalResult(
             frequency_hz=data["frequency"].to_numpy(),
             damping_ratio=data["damping_ratio"].to_numpy(),
@@ -152,7 +177,12 @@ class ModalResult:
         )
 
     def to_dataframe(self) -> pd.DataFrame:
-        """Table with a row for each mode: frequency, damping, peak and participations."""
+        """Table with a row for each mode: frequency, damping, peak and participations.
+
+        Returns
+        -------
+        DataFrame
+        """
         import pandas as pd
 
         columns = {
@@ -165,7 +195,17 @@ class ModalResult:
         return pd.DataFrame(columns, index=pd.Index(self.label, name="mode"))
 
     def direction(self, label: str) -> str:
-        """FA, SS, T or V: how the axis moves in a mode, one of tuned mass dampers as well."""
+        """Direction in which a mode moves.
+
+        Parameters
+        ----------
+        label : str
+            Label such as ``"FA1"``.
+
+        Returns
+        -------
+        str
+        """
         return list(FAMILIES)[int(np.argmax(self.participation[self.index(label)]))]
 
 
@@ -180,12 +220,17 @@ def modes(
 
     Parameters
     ----------
+    system : System
     n : int
         Number of modes.
     about : StaticResult, optional
         Static state; by default that under gravity alone.
     engine : {"compiled", "pinocchio"}
         What evaluates the equations: ``"compiled"`` or ``"pinocchio"``.
+
+    Returns
+    -------
+    ModalResult
 
     Raises
     ------

@@ -73,6 +73,7 @@ def simulate(
 
     Parameters
     ----------
+    system : System
     duration : float, s
         Simulated time, the ramp included.
     dt : float, s

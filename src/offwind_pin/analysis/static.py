@@ -48,6 +48,8 @@ class StaticResult:
         Newton steps.
     residual : float
         Largest entry of the residual over the load scale.
+    mudline : float, m
+        Height of the mudline.
     memory : (k,) array
         What soil and foundation keep of their past once this load has acted.
     loads : tuple of PointLoad or None
@@ -112,7 +114,12 @@ class StaticResult:
         return self.section_load[self._mudline]
 
     def to_dataset(self) -> xr.Dataset:
-        """The state as a labelled dataset over height."""
+        """The state as a labelled dataset over height.
+
+        Returns
+        -------
+        Dataset
+        """
         from offwind_pin.results.states import static_dataset
 
         return static_dataset(
@@ -131,7 +138,17 @@ class StaticResult:
 
     @staticmethod
     def from_dataset(data: xr.Dataset) -> StaticResult:
-        """A state read back from :meth:`to_dataset`; ``loads`` is None where some acted."""
+        """A state read back from :meth:`to_dataset`; ``loads`` is None where some acted.
+
+        Parameters
+        ----------
+        data : Dataset
+            From :meth:`to_dataset`.
+
+        Returns
+        -------
+        StaticResult
+        """
         load = [data[name].to_numpy() for name in ("section_force", "section_moment")]
         return StaticResult(
             q=data["joint_displacement"].to_numpy(),
@@ -148,7 +165,12 @@ class StaticResult:
         )
 
     def to_dataframe(self) -> pd.DataFrame:
-        """Table over height in m: displacement (m), rotation (rad), section load (N, N m)."""
+        """Table over height in m: displacement (m), rotation (rad), section load (N, N m).
+
+        Returns
+        -------
+        DataFrame
+        """
         import pandas as pd
 
         columns = {f"displacement_{a}": self.displacement[:, i] for i, a in enumerate("xyz")}
@@ -159,6 +181,10 @@ class StaticResult:
 
     def acting_loads(self) -> tuple[PointLoad, ...]:
         """The loads that act.
+
+        Returns
+        -------
+        tuple of PointLoad
 
         Raises
         ------
@@ -194,6 +220,7 @@ def static(
 
     Parameters
     ----------
+    system : System
     tower_top_load : (6,) array, N and N m, optional
         Fx, Fy, Fz, Mx, My, Mz at the yaw bearing, inertial frame.
     loads : sequence of PointLoad
@@ -202,6 +229,10 @@ def static(
         State of the same system whose load acted before, which soil with a memory remembers.
     engine : {"compiled", "pinocchio"}
         What evaluates the equations: ``"compiled"`` or ``"pinocchio"``.
+
+    Returns
+    -------
+    StaticResult
 
     Raises
     ------

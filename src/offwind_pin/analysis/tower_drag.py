@@ -17,6 +17,15 @@ def tower_drag(system: System, wind: TowerWind) -> TowerDrag:
     It acts from the highest water level, or from still water level of a dry structure, up to the
     yaw bearing.
 
+    Parameters
+    ----------
+    system : System
+    wind : TowerWind
+
+    Returns
+    -------
+    TowerDrag
+
     Raises
     ------
     InputError

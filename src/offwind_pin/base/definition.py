@@ -88,9 +88,14 @@ def key(name: str, *, default: Any = ..., kw_only: bool | None = None) -> Any:
 
 @dataclass_transform(kw_only_default=True, field_specifiers=(Field, key))
 class Definition(BaseModel):
-    """Base of every definition: frozen, unknown keys rejected, file keys carry units.
+    """Base of every definition: frozen, with unknown keys rejected and units in the keys of files.
 
     A subclass that is declared with ``kw_only=False`` takes its own fields by position as well.
+
+    Attributes
+    ----------
+    source : str, optional
+        Where the numbers come from.
     """
 
     model_config = ConfigDict(
@@ -169,6 +174,15 @@ class Definition(BaseModel):
 
     def replace(self, **changes: Any) -> Self:
         """A copy with some fields changed, checked like a new one.
+
+        Parameters
+        ----------
+        **changes : object
+            New values by field.
+
+        Returns
+        -------
+        Definition
 
         Raises
         ------

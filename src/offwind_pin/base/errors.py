@@ -52,12 +52,16 @@ class SolverError(OffwindError, RuntimeError):
 
     Attributes
     ----------
-    time : float or None, s
-        Simulated time of the failed step (``None`` for a static solve).
+    reason : str
+        What failed.
     step : int
         Number of the failed step or iteration.
     joint : str
         Name of the joint with the largest residual.
+    residual : float
+        Largest entry of the residual over the load scale.
+    time : float or None, s
+        Simulated time of the failed step (``None`` for a static solve).
     results : object
         Dataset of the results so far, or None.
     """

@@ -55,14 +55,14 @@ Groups = dict[str, xr.Dataset | None]
 
 @dataclass(frozen=True)
 class _Solved:
-    """What a solve gave.
+    """Results of a solve.
 
     Attributes
     ----------
     root : Dataset or None
-        Main dataset; None for time histories, which are in their file already.
+        Main dataset; None for time histories, which are already in their file.
     groups : Groups
-        Datasets by path in the tree; None for those that the case does not have.
+        Datasets by path in the tree; None where the case has none.
     simulated : float, s
     """
 
@@ -80,7 +80,7 @@ def run_case(
 ) -> dict[str, Any]:
     """Solve a case and write ``results.nc``, ``report.html`` and ``summary.json``.
 
-    All input is checked before anything is written. A transient case that was stopped is continued
+    All input is checked before anything is written. A transient case that was stopped continues
     from the last block in ``out``.
 
     Parameters
@@ -90,7 +90,7 @@ def run_case(
     out : Path or str
         Directory for the results, created if necessary.
     report : bool
-        Whether to write ``report.html``; ``offwind report`` makes it later.
+        Whether to write ``report.html``; ``offwind report`` can do so later.
     progress : callable, optional
         Called with simulated time and duration, in s.
 
@@ -102,7 +102,7 @@ def run_case(
     Raises
     ------
     InputError
-        Something in the case cannot be used.
+        Invalid input in the case.
     SolverError, InterruptedSimulation
         The solve stopped; the results so far are in ``out``.
     """
@@ -121,7 +121,7 @@ def run_case(
         _write_stopped(case, system, out, stopped, wall, begun)
         raise
     wall = time.perf_counter() - clock
-    # The summary is written last: where it exists, the other files belong to it.
+    # The summary is written last: if it exists, the other files belong to it.
     (out / "summary.json").unlink(missing_ok=True)
     (out / "report.html").unlink(missing_ok=True)
     if solved.root is not None:
@@ -241,7 +241,7 @@ def _soil(
 
 
 def _marked(sea: Sea | None, result: ModalResult, passing: float | None) -> dict[str, float]:
-    """Frequencies in Hz that a reader looks for in the spectrum, by name."""
+    """Frequencies in Hz to mark in the spectrum, by name."""
     marked = {}
     if sea is not None and sea.marked_frequency is not None:
         marked["wave"] = sea.marked_frequency
@@ -255,7 +255,7 @@ def _marked(sea: Sea | None, result: ModalResult, passing: float | None) -> dict
 
 
 def _description(case: Case, system: System) -> Groups:
-    """What describes a case without any solve."""
+    """Description of a case, without a solve."""
     return {
         "structure": structure_dataset(system),
         "structural_damping": damping_dataset(system),
@@ -266,7 +266,7 @@ def _description(case: Case, system: System) -> Groups:
 def _case_dataset(
     case: Case, status: str, wall: float, simulated: float, begun: float
 ) -> xr.Dataset:
-    """The definition, and the account of the run, which continued from ``begun`` seconds."""
+    """The definition and a record of the run, which continued from ``begun`` seconds."""
     definition = {
         "definition": json.dumps(case.model_dump(mode="json", by_alias=True)),
         "content_hash": case.content_hash,
@@ -313,7 +313,7 @@ def _published_dataset(case: Case) -> xr.Dataset | None:
 
 
 def _add_groups(path: Path, groups: Groups) -> None:
-    """Add all groups that the case has; their dimensions get the name of the group."""
+    """Add all groups of the case; their dimensions are prefixed with the group's name."""
     there = {name: prefixed(data, name) for name, data in groups.items() if data is not None}
     add_groups(path, there)
 

@@ -27,6 +27,10 @@ def load_turbine(name_or_path: str | Path) -> Turbine:
     name_or_path : str or Path
         A shipped name (``"oc6_phase2"``) or the path of a YAML file.
 
+    Returns
+    -------
+    Turbine
+
     Raises
     ------
     InputError

@@ -74,6 +74,14 @@ class RotorDisc:
 def rotor_disc(turbine: Turbine) -> RotorDisc:
     """The disc of a turbine's rotor.
 
+    Parameters
+    ----------
+    turbine : Turbine
+
+    Returns
+    -------
+    RotorDisc
+
     Raises
     ------
     InputError

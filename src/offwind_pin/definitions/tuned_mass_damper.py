@@ -104,6 +104,10 @@ def den_hartog(mass_ratio: float) -> DampedAbsorber:
     mass_ratio : float
         Mass of the damper over the modal mass, the shape being one where the damper sits.
 
+    Returns
+    -------
+    DampedAbsorber
+
     Raises
     ------
     InputError

@@ -231,7 +231,33 @@ def _range(values: Iterable[float]) -> str:
 
 
 class Turbine(Definition):
-    """A monopile wind turbine and its site."""
+    """A turbine: what a turbine file contains.
+
+    Attributes
+    ----------
+    name : str
+        Short name, used in file names.
+    description : str
+    site : Site
+        Mudline, water and gravity.
+    materials : dict of str to Material
+        By name.
+    members : tuple of Member
+        Pile, monopile and tower, from below.
+    point_masses : tuple of PointMass
+        Masses on the axis.
+    tuned_mass_dampers : tuple of TunedMassDamper
+    rna : RigidBodyRNA or RotorNacelleRNA
+        Rotor-nacelle assembly.
+    rotor : Rotor or None
+        Tables of a running rotor.
+    hydrodynamics : Hydrodynamics
+        Coefficients and settings of the hydrodynamic loads.
+    soil : Soil or None
+        Parameters of each kind of foundation.
+    structural_damping : StructuralDamping or None
+        Damping ratios to calibrate to.
+    """
 
     name: Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9._-]*$")]
     description: str = ""
@@ -341,7 +367,12 @@ class Turbine(Definition):
         return self
 
     def with_dampers_locked(self) -> Turbine:
-        """The same with each tuned mass damper as a point mass that cannot slide."""
+        """The same with each tuned mass damper as a point mass that cannot slide.
+
+        Returns
+        -------
+        Turbine
+        """
         locked = tuple(
             PointMass(name=damper.name, z_m=damper.z, mass_kg=damper.mass)
             for damper in self.tuned_mass_dampers
@@ -358,6 +389,10 @@ class Turbine(Definition):
             From the toe to the yaw bearing.
         side : {"above", "below"}
             Whose section counts where two members of different sections meet.
+
+        Returns
+        -------
+        Section
 
         Raises
         ------

@@ -105,7 +105,18 @@ class System:
         return None if self.sea is None else HydrodynamicModel.of(self.turbine, self.sea)
 
     def with_damping(self, joint_damping: Array, ratios: dict[str, float]) -> System:
-        """The same system with other joint dampers."""
+        """The same system with other joint dampers.
+
+        Parameters
+        ----------
+        joint_damping : (nv,) array
+        ratios : dict of str to float
+            Achieved damping ratios by mode label.
+
+        Returns
+        -------
+        System
+        """
         return replace(self, joint_damping=joint_damping, damping_ratios=ratios)
 
     def equations(
@@ -121,6 +132,20 @@ class System:
             for the means alone, as in statics and modes
         memory : (m,) what soil and foundation keep of their past, as in :class:`StaticResult`
         ground_motion : of the ground below; root joints then move relative to it
+
+        Parameters
+        ----------
+        loads : sequence of PointLoad
+            Further loads.
+        ramp_time : float or None, s
+            Length of the ramp; None for the mean loads alone.
+        memory : (M,) array, optional
+            Memory of soil and loads; zero by default.
+        ground_motion : GroundMotion, optional
+
+        Returns
+        -------
+        Equations
         """
         from offwind_pin.dynamics.reference.equations import Equations
 

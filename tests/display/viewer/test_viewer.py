@@ -254,7 +254,7 @@ class TestView:
         assert "bending moment" in older
 
     def test_loads_that_the_channel_does_not_hold_are_told(self, history: xr.Dataset) -> None:
-        note = "prescribed loads; a rotor's thrust is not among them"
+        note = "prescribed loads, which exclude the thrust of the rotor"
         told = history.assign_attrs(tower_top_load_holds=note)
         assert "is of prescribed loads" in View(told, 4.0, 4.0).page()
         without = told.assign(tower_top_load=0 * told.tower_top_load)

@@ -135,8 +135,8 @@ def test_truncated_anywhere(tmp_path: Path, kind: int) -> None:
         (6, struct.pack("<i", -5), "number of time steps"),
         (6, struct.pack("<i", 1), "number of time steps"),
         (10, struct.pack("<d", float("nan")), "time"),
-        (18, struct.pack("<d", -0.1), "step of the time"),
-        (18, struct.pack("<d", 0.0), "step of the time"),
+        (18, struct.pack("<d", -0.1), "time step"),
+        (18, struct.pack("<d", 0.0), "time step"),
         (26, struct.pack("<f", 0.0), "slope"),
         (26, struct.pack("<f", float("inf")), "slope"),
         (74, struct.pack("<i", -1), "description"),
@@ -165,15 +165,15 @@ def test_too_long_a_file(tmp_path: Path) -> None:
     """Bytes behind the last value do not belong to this format."""
     path, whole = binary(tmp_path)
     path.write_bytes(whole + b"\0\0")
-    with pytest.raises(ow.InputError, match="2 bytes more"):
+    with pytest.raises(ow.InputError, match="2 more bytes"):
         read_openfast_output(path)
 
 
 @pytest.mark.parametrize(
     ("change", "told"),
     [
-        (lambda text: "", "no line that starts with Time"),
-        (lambda text: text.replace("Time", "Zeit"), "no line that starts with Time"),
+        (lambda text: "", "no line starting with Time"),
+        (lambda text: text.replace("Time", "Zeit"), "no line starting with Time"),
         (lambda text: text.replace("(kN)\t", "", 1), "6 units"),
         (lambda text: text[: text.index("(s)")], "Time"),
         (lambda text: text[:-2], "truncated"),
@@ -319,8 +319,8 @@ def test_resampling_is_told() -> None:
     notes, cautions = resampling_notes(sampled(0.05), 0.02)
     assert len(notes) == 1
     assert cautions == []
-    assert "flattens" in resampling_notes(sampled(0.5), 0.02)[1][0]
-    assert "sampled as something slower" in resampling_notes(sampled(0.005), 0.02)[1][0]
+    assert "attenuates" in resampling_notes(sampled(0.5), 0.02)[1][0]
+    assert "aliased" in resampling_notes(sampled(0.005), 0.02)[1][0]
 
 
 @pytest.mark.parametrize("kind", [1, 2, 3, 4])

@@ -85,7 +85,7 @@ FAULTS: dict[str, tuple[dict[str, Any], list[str]]] = {
         ["density_m2_per_hz"],
     ),
     "unequal columns": (table([0.1, 0.2, 0.3], [1, 1]), ["3 frequencies and 2 densities"]),
-    "empty table": (spectrum(kind="table"), ["either file, or frequency_hz"]),
+    "empty table": (spectrum(kind="table"), ["both given, or neither", "frequency_hz"]),
     "table file that is not there": (spectrum(kind="table", file="none.csv"), ["none.csv"]),
     "table file with another header": (spectrum(kind="table", file="buoy.csv"), ["frequency_hz"]),
     "unknown amplitudes": (WAVES | {"amplitudes": "rayleigh"}, ["amplitudes", "random"]),
@@ -100,7 +100,7 @@ FAULTS: dict[str, tuple[dict[str, Any], list[str]]] = {
     "doppler without current": (WAVES | {"doppler": True}, ["doppler", "current"]),
     "waves that are blocked": (
         WAVES | {"doppler": True, "current": AGAINST},
-        ["blocks", "check the current"],
+        ["blocks", "Check the current"],
     ),
     "a regular wave that is blocked": (
         REGULAR | {"period_s": 4.0, "doppler": True, "current": AGAINST},

@@ -81,7 +81,16 @@ class Condensation:
         return float(np.max(np.abs(difference) / np.outer(size, size)))
 
     def replacing_soil(self, turbine: Turbine) -> Turbine:
-        """A turbine with the symmetric part as its soil's ``coupled_springs``."""
+        """A turbine with the symmetric part as its soil's ``coupled_springs``.
+
+        Parameters
+        ----------
+        turbine : Turbine
+
+        Returns
+        -------
+        Turbine
+        """
         source = f"{self.kind} stiffness of distributed springs, condensed to the mudline"
         springs = {"stiffness": self.symmetric.tolist(), "source": source}
         soil = turbine.soil.model_validate({**dict(turbine.soil), "coupled_springs": springs})
@@ -106,6 +115,10 @@ def condense(
         ``"tangent"`` for small motions about the state, as modes and time histories make them;
         ``"secant"`` with each soil spring replaced by a linear one of force over displacement in
         the state, which takes the unloaded pile to that state in one step.
+
+    Returns
+    -------
+    Condensation
 
     Raises
     ------

@@ -32,8 +32,13 @@ def pile_only(turbine: Turbine, stick_up: float = 0.0) -> Turbine:
 
     Parameters
     ----------
+    turbine : Turbine
     stick_up : float, m
         Length of the structure above the mudline that stays, for loads that act there.
+
+    Returns
+    -------
+    Turbine
 
     Raises
     ------

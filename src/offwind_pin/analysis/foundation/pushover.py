@@ -83,6 +83,7 @@ def pushover(
 
     Parameters
     ----------
+    turbine : Turbine
     arm : float, m
         Height above the mudline at which the load acts.
     until_displacement : float, m, optional
@@ -98,6 +99,10 @@ def pushover(
         As for :func:`build`, of the pile alone.
     element : {"euler_bernoulli", "timoshenko"}
         As for :func:`build`.
+
+    Returns
+    -------
+    Pushover
 
     Raises
     ------

@@ -57,7 +57,16 @@ class FoundationKind(ABC):
         """
 
     def is_described(self, turbine: Turbine) -> bool:
-        """Whether a turbine file contains the numbers for it; `offwind show` lists those."""
+        """Whether a turbine file contains the numbers for it; `offwind show` lists those.
+
+        Parameters
+        ----------
+        turbine : Turbine
+
+        Returns
+        -------
+        bool
+        """
         return True
 
 

@@ -43,9 +43,16 @@ _ALONE = 0.99
 class Parameter:
     """A number of the definition to be found between two bounds.
 
-    path : dotted, ``"soil.distributed_springs.curve.initial_modulus.gradient"``
-    start : by default what the turbine has, or the middle where that is out of bounds
-    log : search over the logarithm, for numbers of unknown order of magnitude
+    Attributes
+    ----------
+    path : str
+        Dotted, such as ``"soil.distributed_springs.curve.initial_modulus.gradient"``.
+    lower, upper : float
+        Bounds.
+    start : float or None
+        Start of the search; by default the turbine's value, or the middle if that is out of bounds.
+    log : bool
+        Whether to search over the logarithm, for numbers of unknown order of magnitude.
     """
 
     path: str
@@ -73,13 +80,33 @@ class Parameter:
         return ".".join(self.path.split(".")[-2:])
 
     def value(self, share: float) -> float:
-        """The number at a share of the range from 0 to 1."""
+        """Value at a fraction of the range.
+
+        Parameters
+        ----------
+        share : float
+            From 0 to 1.
+
+        Returns
+        -------
+        float
+        """
         if self.log:
             return float(self.lower * (self.upper / self.lower) ** share)
         return self.lower + share * (self.upper - self.lower)
 
     def share(self, value: float) -> float:
-        """Place of a number in the range, from 0 to 1."""
+        """Fraction of the range at a value.
+
+        Parameters
+        ----------
+        value : float
+
+        Returns
+        -------
+        float
+            From 0 to 1.
+        """
         if self.log:
             return float(np.log(value / self.lower) / np.log(self.upper / self.lower))
         return (value - self.lower) / (self.upper - self.lower)
@@ -195,6 +222,8 @@ def identify_soil(
 
     Parameters
     ----------
+    turbine : Turbine
+        Definition to start from.
     targets : sequence of Target
         :class:`FrequencyTarget`, :class:`DeflectionTarget`, :class:`ShapeTarget`.
     parameters : sequence of Parameter
@@ -212,6 +241,10 @@ def identify_soil(
         from points spread over the ranges (Halton's sequence), against local minima.
     progress : callable, optional
         Called with the number of models solved and half the sum of squares after each.
+
+    Returns
+    -------
+    SoilIdentification
 
     Raises
     ------

@@ -37,9 +37,17 @@ Loading = Literal["static", "cyclic"]
 
 
 class SoilLayer(Definition):
-    """A layer of the ground: base class of the package's and of a user's own.
+    """A layer of the ground: base class of the package's layers and of your own.
 
     A subclass adds its parameters, and a field ``model`` whose ``Literal`` is the name in files.
+
+    Attributes
+    ----------
+    model : str
+        Name of the kind of layer.
+    top : float, m
+        Depth of the top below the original mudline.
+    submerged_unit_weight : float, N/m3
     """
 
     model: str
@@ -50,6 +58,11 @@ class SoilLayer(Definition):
 
     def check_loading(self, loading: Loading) -> None:
         """Refuse a kind of loading that the layer's curves are not for.
+
+        Parameters
+        ----------
+        loading : Loading
+            Static or cyclic.
 
         Raises
         ------

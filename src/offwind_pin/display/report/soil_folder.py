@@ -22,6 +22,12 @@ def write_soil(soil: SoilOverview, directory: Path) -> list[Path]:
     ``p_y_curves.csv`` is what a turbine's ``curve: {kind: table}`` reads: between its points the
     resistance is linear, and past the last one constant.
 
+    Parameters
+    ----------
+    soil : SoilOverview
+    directory : Path
+        Created if necessary.
+
     Returns
     -------
     list of Path

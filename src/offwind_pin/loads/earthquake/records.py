@@ -1,4 +1,4 @@
-"""Accelerograms out of files: columns of numbers, and PEER's AT2."""
+"""Accelerograms from files: columns of numbers, and PEER's AT2."""
 
 from __future__ import annotations
 
@@ -19,18 +19,19 @@ Unit = Literal["m_per_s2", "cm_per_s2", "g"]
 Axis = Literal["x", "y", "z"]
 
 STANDARD_GRAVITY = 9.80665
-"""m/s2; what accelerograms call g."""
+"""m/s2; the g of accelerograms."""
 UNITS: dict[str, float] = {"m_per_s2": 1.0, "cm_per_s2": 0.01, "g": STANDARD_GRAVITY}
 """By name, in m/s2."""
 AXES = ("x", "y", "z")
 
 STRONG, WEAK = 20.0, 0.5
-"""m/s2; peaks beyond the first are rarer than a wrong unit; those below the second are weak."""
+"""m/s2; peaks above the first are less likely than a wrong unit, those below the second are
+weak."""
 
 
 @dataclass(frozen=True, eq=False)
 class Accelerogram:
-    """Samples out of files: time (n,) in s, acceleration (n, 3) in m/s2, and their origin."""
+    """Samples from files: time (n,) in s, acceleration (n, 3) in m/s2, and their origin."""
 
     time: Array
     acceleration: Array
@@ -47,7 +48,7 @@ def read_columns(path: Path, unit: Unit, components: Sequence[Axis]) -> Accelero
     unit : {"m_per_s2", "cm_per_s2", "g"}
         Of the accelerations.
     components : sequence of {"x", "y", "z"}
-        Axis of each column after the time's.
+        Axis of each column after the time.
 
     Raises
     ------
@@ -64,12 +65,12 @@ def read_columns(path: Path, unit: Unit, components: Sequence[Axis]) -> Accelero
 
 
 def check_components(components: Sequence[str]) -> None:
-    """Refuse axes that are unknown, named twice, or none.
+    """Reject axes that are unknown, duplicate or missing.
 
     Raises
     ------
     InputError
-        With what was named.
+        Naming the axes given.
     """
     unknown = set(components) - set(AXES)
     if unknown or not components or len(set(components)) < len(components):
@@ -82,16 +83,16 @@ _HEADS = (
     re.compile(r"NPTS\s*=\s*(?P<count>\d+)\s*,?\s*DT\s*=\s*(?P<step>[\d.]+(?:[eE][-+]?\d+)?)"),
     re.compile(r"^\s*(?P<count>\d+)\s+(?P<step>[\d.]+(?:[eE][-+]?\d+)?)\s+NPTS\s*,\s*DT"),
 )
-"""The two ways in which PEER has written number and interval of the samples."""
+"""The two header formats of PEER for number and interval of the samples."""
 _HEADER_LINES = 10
 
 
 def read_at2(path: Path) -> tuple[float, Array, str]:
-    """Interval in s, acceleration (n,) in m/s2, and origin, out of a file of PEER's.
+    """Interval in s, acceleration (n,) in m/s2, and origin, from a PEER file.
 
-    A header ends with number and interval of the samples (``NPTS= 4000, DT= .0050 SEC``); then
-    come the samples in g, several in a line. That is the format as it is found in files and
-    readers of it; PEER has not published a definition.
+    The header ends with number and interval of the samples (``NPTS= 4000, DT= .0050 SEC``); the
+    samples in g follow, several per line. This is the format found in files and in programs that
+    read them; PEER has not published a definition.
 
     Raises
     ------
@@ -111,7 +112,7 @@ def read_at2(path: Path) -> tuple[float, Array, str]:
             str(path),
             "no line with NPTS and DT",
             f"one such as 'NPTS= 4000, DT= .0050 SEC' in the first {_HEADER_LINES} lines",
-            "Is it an AT2 file? Columns of numbers go under file.",
+            "Is it an AT2 file? Use file for columns of numbers.",
         )
     number, found = heads[0]
     unit = re.search(r"UNITS\s+OF\s+([^\s,]+)", " ".join(lines[:number]))
@@ -127,44 +128,46 @@ def read_at2(path: Path) -> tuple[float, Array, str]:
     if len(values) != count or count < 2 or not step > 0:
         raise InputError(
             f"{path}, line {number + 1}",
-            f"{len(values)} samples, {count} promised, {step:g} s apart",
-            "as many as promised, two or more, at a positive interval",
+            f"{len(values)} samples where the header states {count}, {step:g} s apart",
+            "the stated number of samples, two or more, at a positive interval",
             "Is the file complete?",
         )
     return step, STANDARD_GRAVITY * np.array(values), _origin(path, text)
 
 
 def read_at2_components(paths: Mapping[Axis, Path]) -> Accelerogram:
-    """One AT2 file for each axis; one that ends early is followed by zeros.
+    """One AT2 file per axis; a shorter one is padded with zeros.
 
     Raises
     ------
     InputError
-        As in :func:`read_at2`; intervals that differ.
+        As in :func:`read_at2`; different intervals.
     """
     check_components(list(paths))
     read = {axis: read_at2(path) for axis, path in paths.items()}
     steps = {axis: step for axis, (step, _, _) in read.items()}
     step = next(iter(steps.values()))
     if any(abs(other - step) > 1e-9 * step for other in steps.values()):
-        raise InputError("at2, DT", steps, "one interval for all components", "Resample a file.")
+        raise InputError(
+            "at2, DT", steps, "one interval for all components", "Resample one of the files."
+        )
     count = max(len(values) for _, values, _ in read.values())
     acceleration = np.zeros((count, 3))
     for axis, (_, values, _) in read.items():
         acceleration[: len(values), AXES.index(axis)] = values
-    origin = "; ".join(f"{axis}: {told}" for axis, (_, _, told) in read.items())
+    origin = "; ".join(f"{axis}: {text}" for axis, (_, _, text) in read.items())
     return Accelerogram(step * np.arange(count, dtype=float), acceleration, origin)
 
 
 def unit_cautions(acceleration: Array, unit: Unit) -> list[str]:
-    """What speaks against a unit, given accelerations in m/s2 that came of it."""
+    """Cautions about a unit, given the resulting accelerations in m/s2."""
     peak = float(np.max(np.abs(acceleration)))
     number = f"{peak / UNITS[unit]:.3g}"
     if peak > STRONG:
         likely = "cm/s2" if unit == "m_per_s2" else "m/s2 or cm/s2"
         return [
-            f"a peak of {number} in the unit {unit} is {peak:.3g} m/s2, beyond nearly all that was "
-            f"ever recorded; are the numbers in {likely}?"
+            f"a peak of {number} in the unit {unit} is {peak:.3g} m/s2, more than almost any "
+            f"recorded earthquake; are the numbers in {likely}?"
         ]
     if 0 < peak < WEAK:
         likely = "g" if unit == "m_per_s2" else "m/s2 or g"

@@ -156,7 +156,12 @@ class SoilOverview:
         return float(self.depth[damping_node(self.lateral, self.depth, self.head_diameter)])
 
     def lateral_curves(self) -> list[tuple[float, float, float]]:
-        """Depth in m, y in m and p in N/m of every node, as a curve table has them."""
+        """Depth in m, y in m and p in N/m of every node, as a curve table has them.
+
+        Returns
+        -------
+        list of (float, float, float)
+        """
         return [
             (float(depth), y, p)
             for depth, points in zip(
@@ -170,6 +175,10 @@ class SoilOverview:
 
         Resistances are per metre of pile along the shaft, whole at the toe; the lever in m of
         moments that the lateral resistance carries stands for a resistance.
+
+        Returns
+        -------
+        list of tuple
         """
         rows = []
         for load in self.others:
@@ -182,7 +191,12 @@ class SoilOverview:
         return rows
 
     def nodes(self) -> list[dict[str, Any]]:
-        """One row of plain data for each node, from the mudline down."""
+        """One row of plain data for each node, from the mudline down.
+
+        Returns
+        -------
+        list of dict of str to object
+        """
         soil, state = self.lateral, self.state
         initial, ultimate = soil.curves.secant(np.zeros(len(self.depth))), soil.curves.ultimate
         rows = []
@@ -207,7 +221,12 @@ class SoilOverview:
         return rows
 
     def as_dict(self) -> dict[str, Any]:
-        """Plain data, SI units in the keys."""
+        """Plain data, SI units in the keys.
+
+        Returns
+        -------
+        dict of str to object
+        """
         springs, push = self.springs, self.pushover
         return {
             "turbine": self.turbine.name,
@@ -279,6 +298,7 @@ def soil_overview(
 
     Parameters
     ----------
+    turbine : Turbine
     load : (6,) array, N and N m, optional
         At the yaw bearing, under which and gravity the state is found, dry.
     result : Path, optional
@@ -288,6 +308,10 @@ def soil_overview(
         Height above the mudline of the pushover's load, by default the yaw bearing's.
     elements : int, optional
         Multibody beam elements of the structure in all, for the state under a load.
+
+    Returns
+    -------
+    SoilOverview
 
     Raises
     ------
