@@ -14,7 +14,6 @@ from offwind_pin.definitions.soil.depth_profile import DepthLine
 from offwind_pin.definitions.soil.springs import LinearModulus
 from offwind_pin.display.figures import results as plots
 from offwind_pin.display.report.headline import static_increases
-from offwind_pin.display.viewer.mode_page import animate
 from offwind_pin.display.viewer.springs import foundation_springs
 from offwind_pin.display.wording import foundation_name
 
@@ -49,28 +48,6 @@ def test_report_names_the_foundation(systems: dict[str, ow.System], name: str) -
     assert ("from the mudline to the" in page) == (name in below)
     assert below.get(name, "from the mudline") in page
     assert ('id="soil"' in page) == (name == "distributed_springs")
-
-
-@pytest.mark.parametrize(
-    ("name", "springs"),
-    [
-        ("clamped", ""),
-        ("apparent_fixity", ""),
-        ("coupled_springs", "coupled springs"),
-        ("distributed_springs", "soil springs"),
-        ("macro_element", "macro-element"),
-    ],
-)
-def test_animation_says_what_holds_it(
-    systems: dict[str, ow.System], name: str, springs: str
-) -> None:
-    """A legend for the springs where there are some, and none where the root is held."""
-    system = systems[name]
-    page = animate(system, ow.modes(system, 4), "FA1")
-    legend = page[page.index("axis at rest") : page.index("Amplitude exaggerated")]
-    assert springs in legend
-    assert ("</i>" in legend) == bool(springs)
-    assert name.replace("_", " ") in page
 
 
 @pytest.mark.parametrize(
