@@ -120,8 +120,9 @@ class Picture(ABC):
         axes.set_facecolor("#ffffffb0")
         axes.set(xticks=[], yticks=[])
         axes.spines[:].set_visible(False)
-        for side, words in (("left", title), ("right", value)):
-            axes.set_title(words, fontsize=8, color=FAINT, loc=side, pad=3)
+        font = {"fontsize": 8, "color": FAINT}
+        axes.set_title(title, font, loc="left", pad=3)
+        axes.set_title(value, font, loc="right", pad=3)
         return axes
 
     def colour_bar(self, y: float, title: str) -> None:
