@@ -79,7 +79,10 @@ def body_meshes(turbine: Turbine, chain: Chain) -> dict[str, Mesh]:
 def damper_disc(diameter: float) -> tuple[float, float]:
     """Radius and thickness in m of the disc that represents a tuned mass damper in pictures.
 
-    diameter : of the structure at the damper's height, in m
+    Parameters
+    ----------
+    diameter : float, m
+        Of the structure at the damper's height.
     """
     return _DISC[0] * diameter, _DISC[1] * diameter
 
@@ -89,8 +92,10 @@ def loft(sections: Array, *, capped: bool = True) -> Mesh:
 
     Parameters
     ----------
-    sections : (s, n, 3) points of each loop, anticlockwise seen from the last loop
-    capped : close the first and the last loop with a fan of triangles
+    sections : (s, n, 3) array
+        Points of each loop, anticlockwise seen from the last loop.
+    capped : bool
+        Close the first and the last loop with a fan of triangles.
     """
     count, around = sections.shape[:2]
     low = np.arange((count - 1) * around).reshape(count - 1, around)

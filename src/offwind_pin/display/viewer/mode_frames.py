@@ -28,16 +28,25 @@ class Shapes:
 
     Attributes
     ----------
-    label : n labels
-    family : n of FA, SS, T, V: how the axis moves, in a mode of a tuned mass damper as well
-    frequency_hz, damping_ratio : (n,) arrays, Hz and 1
-    height, radius : (r,) arrays, m; of the rings at rest
-    motion : (n, r, 6) array, m and rad; of each ring's centre at the peak
-    share : (n, r) array, 1; displacement, or rotation for torsion, over the largest
-    peak : (n,) array; the largest, in m, or rad for torsion
-    damper_height : (d,) array, m; of tuned mass dampers
-    stroke : (n, d, 3) array, m; of the dampers at the peak
-    springs : of the foundation, for each mode in its plane; the moving ends have the same heights
+    label : list of str
+        n labels.
+    family : list of str
+        n of FA, SS, T, V: how the axis moves, in a mode of a tuned mass damper as well.
+    frequency_hz, damping_ratio : (n,) array
+    height, radius : (r,) array, m
+        Of the rings at rest.
+    motion : (n, r, 6) array, m and rad
+        Of each ring's centre at the peak.
+    share : (n, r) array
+        Displacement, or rotation for torsion, over the largest.
+    peak : (n,) array, m or rad
+        The largest; in rad for torsion.
+    damper_height : (d,) array, m
+        Of tuned mass dampers.
+    stroke : (n, d, 3) array, m
+        Of the dampers at the peak.
+    springs : list of Springs
+        Of the foundation, for each mode in its plane; the moving ends have the same heights.
     """
 
     label: list[str]
@@ -63,7 +72,8 @@ class Shapes:
 
         Raises
         ------
-        InputError : no mode of that label
+        InputError
+            No mode of that label.
         """
         if label not in self.label:
             raise InputError("modes", label, ", ".join(self.label), "Choose among them.")
@@ -74,7 +84,8 @@ class Shapes:
 
         Raises
         ------
-        InputError : a label that does not exist, one asked for twice, or too many
+        InputError
+            A label that does not exist, one asked for twice, or too many.
         """
         if labels is None:
             bending = [i for i, label in enumerate(self.label) if label[:2] in {"FA", "SS"}]
@@ -106,9 +117,11 @@ def carried(motion: Array, height: Array, offset: Array) -> tuple[Array, Array]:
 
     Parameters
     ----------
-    motion : (k, 6) array, m and rad; of the axis
+    motion : (k, 6) array, m and rad
+        Of the axis.
     height : (k,) array, m
-    offset : (k, ..., 3) array, m; of the points from the axis at rest
+    offset : (k, ..., 3) array, m
+        Of the points from the axis at rest.
 
     Returns
     -------
@@ -130,11 +143,13 @@ def shapes(results: xr.Dataset) -> Shapes:
 
     Parameters
     ----------
-    results : Dataset of natural modes, in memory or from ``results.nc``
+    results : Dataset
+        Natural modes, in memory or from ``results.nc``.
 
     Raises
     ------
-    InputError : results without what a picture needs
+    InputError
+        Results without what a picture needs.
     """
     needed = ("mass_normalised", "frequency", "damping_ratio", "outline_height", "outline_diameter")
     missing = [name for name in needed if name not in results]

@@ -44,7 +44,10 @@ class Picture(ABC):
 
     Attributes
     ----------
-    figure : with the scene in ``scene``, whose coordinates are those of the camera
+    figure : Figure
+    scene : Axes
+        In the coordinates of the camera.
+    camera : Camera
     """
 
     def __init__(self, look: dict[str, Any], breadth: float) -> None:
@@ -97,7 +100,10 @@ class Picture(ABC):
     def text(self, y: float, words: str, *, fit: int = 0, indent: float = 0.0, **font: Any) -> Any:
         """A line of the card at a share of the height.
 
-        fit : number of letters beyond which they become smaller, so that the line fits
+        Parameters
+        ----------
+        fit : int, optional
+            Number of letters beyond which they become smaller, so that the line fits.
         """
         if fit:
             font["fontsize"] *= min(1.0, fit / max(len(words), 1))
@@ -135,7 +141,8 @@ def write_still(picture: Picture, path: Path) -> None:
 
     Raises
     ------
-    InputError : another kind of file
+    InputError
+        Another kind of file.
     """
     check_still(path)
     with whole_file(path) as temporary:
@@ -154,7 +161,7 @@ def check_still(path: Path) -> None:
 
 
 def check_frames(folder: Path) -> None:
-    """Refuse a folder of frames that holds something."""
+    """Refuse a folder of frames that is not empty."""
     if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
         remedy = "Name another, or empty it."
         raise InputError("--frames", str(folder), "a new or an empty directory", remedy)
@@ -167,12 +174,15 @@ def write_frames(
 
     Parameters
     ----------
-    times : (n,) in s, as :meth:`Picture.show` takes them
-    progress : called with the frames written and their number
+    times : (n,) array, s
+        As :meth:`Picture.show` takes them.
+    progress : callable, optional
+        Called with the frames written and their number.
 
     Raises
     ------
-    InputError : the folder holds something
+    InputError
+        The folder is not empty.
     """
     check_frames(folder)
     folder.parent.mkdir(parents=True, exist_ok=True)

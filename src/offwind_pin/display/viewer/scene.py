@@ -73,7 +73,10 @@ def set_mesh(
 ) -> None:
     """Show a mesh at a place in the viewer's tree.
 
-    colour : one such as 0x3D8FD1, or red, green and blue (n, 3) from 0 to 1 of its vertices
+    Parameters
+    ----------
+    colour : int or (n, 3) array
+        Such as 0x3D8FD1, or red, green and blue from 0 to 1 of its vertices.
     """
     # A translucent surface is seen from both sides, and what lies behind it must still be drawn, so
     # it leaves no mark in depth.

@@ -23,8 +23,10 @@ class Springs:
 
     Attributes
     ----------
-    height : (s,) array, m, at which the axis carries the moving ends
-    offset : (s, 3) array, m, of the moving ends at rest from the axis
+    height : (s,) array, m
+        At which the axis carries the moving ends.
+    offset : (s, 3) array, m
+        Of the moving ends at rest from the axis.
     anchor : (s, 3) array, m
     """
 
@@ -39,11 +41,12 @@ class Springs:
 
         Parameters
         ----------
-        ends : (s, 3) array, m; the moving ends
+        ends : (s, 3) array, m
+            The moving ends.
 
         Returns
         -------
-        middle, direction : (s, 3) arrays, m
+        middle, direction : (s, 3) array, m
         """
         along = ends - self.anchor
         return (ends + self.anchor) / 2, along * np.sign(along.sum(axis=1, keepdims=True))
@@ -57,9 +60,12 @@ def foundation_springs(results: xr.Dataset, height: Array, radius: Array, plane:
 
     Parameters
     ----------
-    results : Dataset of natural modes
-    height, radius : (r,) arrays, m; of the rings of the wall
-    plane : (3,) array; horizontal unit vector in the plane of the motion
+    results : Dataset
+        Natural modes.
+    height, radius : (r,) array, m
+        Of the rings of the wall.
+    plane : (3,) array
+        Horizontal unit vector in the plane of the motion.
     """
     size = float(height[-1] - height[0])
     reach = _REACH * size
@@ -105,7 +111,8 @@ def zigzag(width: float, radius: float, windings: int = 4) -> Mesh:
 
     Parameters
     ----------
-    width, radius : float, m; of the bends and of the rod
+    width, radius : float, m
+        Of the bends and of the rod.
     """
     bends = np.linspace(-0.3, 0.3, 2 * windings + 1)
     side = np.zeros(2 * windings + 1)
