@@ -81,7 +81,8 @@ def key(name: str, *, default: Any = ..., kw_only: bool | None = None) -> Any:
 
     Parameters
     ----------
-    name : key in a file, such as ``height_m``
+    name : str
+        Key in a file, such as ``height_m``.
     """
     return Field(default, validation_alias=name, serialization_alias=name, kw_only=kw_only)
 
@@ -126,7 +127,8 @@ class Definition(BaseModel):
 
         Raises
         ------
-        InputError : a value that cannot be used, named by its field
+        InputError
+            A value that cannot be used, named by its field.
         """
         called = type(self).__name__
         if len(values) > len(self._positional):
@@ -171,7 +173,8 @@ class Definition(BaseModel):
 
         Raises
         ------
-        InputError : a value that cannot be used
+        InputError
+            A value that cannot be used.
         """
         kept = {name: getattr(self, name) for name in self.model_fields_set}
         return type(self)(**(kept | changes))
@@ -182,7 +185,8 @@ class Definition(BaseModel):
 
         Raises
         ------
-        InputError : a file that cannot be read
+        InputError
+            A file that cannot be read.
         """
         text = json.dumps(_content(self), sort_keys=True, separators=(",", ":"))
         return hashlib.sha256(text.encode()).hexdigest()
@@ -261,7 +265,8 @@ def file_digest(path: Path) -> str:
 
     Raises
     ------
-    InputError : it cannot be read
+    InputError
+        It cannot be read.
     """
     check_file(path)
     try:
@@ -277,6 +282,7 @@ def origin_of(path: Path) -> str:
 
     Raises
     ------
-    InputError : it cannot be read
+    InputError
+        It cannot be read.
     """
     return f"{path.name} (SHA-256 {file_digest(path)})"

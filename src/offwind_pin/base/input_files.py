@@ -29,7 +29,8 @@ def check_file(path: Path) -> int:
 
     Raises
     ------
-    InputError : there is no such file, or it is of another kind
+    InputError
+        There is no such file, or it is of another kind.
     """
     try:
         found = path.stat()
@@ -50,11 +51,13 @@ def read_bytes(path: Path, most: int | None = None) -> bytes:
 
     Parameters
     ----------
-    most : int, bytes that it may have
+    most : int, optional
+        Bytes that it may have.
 
     Raises
     ------
-    InputError : it is missing, too large, or cannot be read
+    InputError
+        It is missing, too large, or cannot be read.
     """
     size = check_file(path)
     if most is not None and size > most:
@@ -75,11 +78,13 @@ def read_text(path: Path, most: int | None = None) -> str:
 
     Parameters
     ----------
-    most : int, bytes that it may have
+    most : int, optional
+        Bytes that it may have.
 
     Raises
     ------
-    InputError : it is missing, too large, cannot be read, or is not text
+    InputError
+        It is missing, too large, cannot be read, or is not text.
     """
     content = read_bytes(path, most)
     try:

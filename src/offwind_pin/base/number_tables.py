@@ -71,8 +71,10 @@ class NumberTable:
     path : Path
     names : tuple of str, cells of the header; none without a header
     values : (n, c) array
-    lines : (n,) array of int, line of each row
-    remarks : str, header and comments, as far as the first rows
+    lines : (n,) array
+        Of int, line of each row.
+    remarks : str
+        Header and comments, as far as the first rows.
     """
 
     path: Path
@@ -87,7 +89,8 @@ def read_numbers(path: Path, columns: tuple[str, ...]) -> NumberTable:
 
     Raises
     ------
-    InputError : missing or empty file, wrong header, a cell that is not a finite number
+    InputError
+        Missing or empty file, wrong header, a cell that is not a finite number.
     """
 
     def head(cells: list[str], where: str) -> tuple[str, ...]:
@@ -113,7 +116,8 @@ def read_csv(path: Path, head: Callable[[list[str], str], tuple[str, ...]]) -> N
 
     Raises
     ------
-    InputError : a missing file, a cell that is not a finite number, and what ``head`` raises
+    InputError
+        A missing file, a cell that is not a finite number, and what ``head`` raises.
     """
 
     def first(line: str, where: str) -> tuple[str, ...]:
@@ -139,16 +143,22 @@ def read_time_columns(
 
     Parameters
     ----------
-    count : int, number of columns, the time included
-    coarsest : float, s; longer steps look like ms
-    sampled : int, rows from which on the steps are judged
-    fewest : int, number of rows that the file must have
-    header : bool, whether the first line may name the columns
+    count : int
+        Number of columns, the time included.
+    coarsest : float, s
+        Longer steps look like ms.
+    sampled : int
+        Rows from which on the steps are judged.
+    fewest : int
+        Number of rows that the file must have.
+    header : bool
+        Whether the first line may name the columns.
 
     Raises
     ------
-    InputError : a missing, empty or short file; a cell that is not a finite number; decimal commas;
-        times that do not rise, that leave a gap, or that are not in s
+    InputError
+        A missing, empty or short file; a cell that is not a finite number; decimal commas; times
+        that do not rise, that leave a gap, or that are not in s.
     """
 
     def first(line: str, where: str) -> tuple[str, ...]:
@@ -171,11 +181,13 @@ def check_times(path: Path, time: Array, place: Lines, counted: str) -> None:
 
     Parameters
     ----------
-    place : (t,) array of int, where they are in the file, in what ``counted`` names
+    place : (t,) array
+        Of int, where they are in the file, in what ``counted`` names.
 
     Raises
     ------
-    InputError : with the place of the first fault
+    InputError
+        With the place of the first fault.
     """
     step = np.diff(time)
     back = np.flatnonzero(~(step > 0))
@@ -208,12 +220,15 @@ def check_time_unit(
 
     Parameters
     ----------
-    remarks : str, header and comments, where a unit may be named
-    coarsest, sampled : see :func:`read_time_columns`
+    remarks : str
+        Header and comments, where a unit may be named.
+    coarsest, sampled : float
+        See :func:`read_time_columns`.
 
     Raises
     ------
-    InputError : with the unit, or with the step
+    InputError
+        With the unit, or with the step.
     """
     named = _TIME_UNIT.search(remarks)
     if named is not None:
@@ -238,7 +253,8 @@ def to_numbers(path: Path, line: int, cells: list[str], count: int) -> tuple[flo
 
     Raises
     ------
-    InputError : a wrong number of cells, or a cell that is not a finite number
+    InputError
+        A wrong number of cells, or a cell that is not a finite number.
     """
     where = f"{path}, line {line}"
     if len(cells) != count:
@@ -258,7 +274,8 @@ def pieces(path: Path) -> Iterator[str]:
 
     Raises
     ------
-    InputError : a file that cannot be read, or is not text
+    InputError
+        A file that cannot be read, or is not text.
     """
     check_file(path)
     rest = ""
@@ -292,8 +309,10 @@ class RowReader:
 
     Parameters
     ----------
-    count : int, number of columns
-    separator : str, comma or blank; None for what each line has: blanks, commas or semicolons
+    count : int
+        Number of columns.
+    separator : str or None
+        Comma or blank; None for what each line has: blanks, commas or semicolons.
     spoilt : callable, number for a cell that is none; without it such a cell is refused
     """
 
@@ -316,7 +335,8 @@ class RowReader:
 
         Raises
         ------
-        InputError : a line that cannot be read
+        InputError
+            A line that cannot be read.
         """
         rows = self._at_once(text)
         if rows is None:
@@ -395,10 +415,13 @@ def _read(
 
     Parameters
     ----------
-    remark : Pattern, what is no data
-    first : callable, names of the columns, from the first line that is no comment and its place; none where
-        that line is a row already
-    count : int, number of columns; None for that of the names
+    remark : re.Pattern[str]
+        Pattern, what is no data.
+    first : callable
+        Names of the columns, from the first line that is no comment and its place; none where that
+        line is a row already.
+    count : int or None
+        Number of columns; None for that of the names.
     """
     names: tuple[str, ...] = ()
     reader: RowReader | None = None

@@ -45,14 +45,21 @@ class OpenFastOutput:
 
     Attributes
     ----------
-    path : of the file
-    digest : SHA-256 of its content
-    time : (t,) in s
-    name, unit : c of each, as in the file, without time
-    packed : (t, c) as in the file
-    slope, offset : (c,) of the packing: value = (packed - offset) / slope
-    place : (t,) where each time stands in the file: its line, or its number from 1
-    counted : ``line`` or ``time step``
+    path : Path
+        Of the file.
+    digest : str
+        SHA-256 of its content.
+    time : (t,) array, s
+    name, unit : list of str
+        c of each, as in the file, without time.
+    packed : (t, c) array
+        As in the file.
+    slope, offset : (c,) array
+        Of the packing: value = (packed - offset) / slope.
+    place : (t,) int array
+        Where each time stands in the file: its line, or its number from 1.
+    counted : str
+        ``line`` or ``time step``.
     """
 
     path: Path
@@ -71,7 +78,8 @@ class OpenFastOutput:
 
         Raises
         ------
-        InputError : no channel of that name, several, or one that cannot be used
+        InputError
+            No channel of that name, several, or one that cannot be used.
         """
         found = [i for i, known in enumerate(self.name) if known.lower() == name.lower()]
         if not found:
@@ -111,7 +119,8 @@ def read_openfast_output(path: Path) -> OpenFastOutput:
 
     Raises
     ------
-    InputError : a file that is missing, truncated, or of another format; the message tells where
+    InputError
+        A file that is missing, truncated, or of another format; the message tells where.
     """
     path = Path(path)
     return _read_binary(path) if path.suffix.lower() == ".outb" else _read_text(path)

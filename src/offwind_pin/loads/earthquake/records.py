@@ -47,13 +47,16 @@ def read_columns(path: Path, unit: Unit, components: Sequence[Axis]) -> Accelero
 
     Parameters
     ----------
-    unit : of the accelerations
-    components : axis of each column after the time's
+    unit : {"m_per_s2", "cm_per_s2", "g"}
+        Of the accelerations.
+    components : sequence of {"x", "y", "z"}
+        Axis of each column after the time's.
 
     Raises
     ------
-    InputError : a missing, empty or truncated file; a cell that is not a number; times that do not
-        rise, leave a gap, or are not in s; an axis named twice
+    InputError
+        A missing, empty or truncated file; a cell that is not a number; times that do not rise,
+        leave a gap, or are not in s; an axis named twice.
     """
     check_components(components)
     values = read_time_columns(path, 1 + len(components), coarsest=_COARSEST).values
@@ -68,7 +71,8 @@ def check_components(components: Sequence[str]) -> None:
 
     Raises
     ------
-    InputError : with what was named
+    InputError
+        With what was named.
     """
     unknown = set(components) - set(AXES)
     if unknown or not components or len(set(components)) < len(components):
@@ -108,8 +112,8 @@ def read_at2(path: Path) -> tuple[float, Array, str]:
 
     Raises
     ------
-    InputError : no such header, no unit or an unknown one, a cell that is not a number, or a wrong
-        count
+    InputError
+        No such header, no unit or an unknown one, a cell that is not a number, or a wrong count.
     """
     lines = read_text(path).splitlines()
     number, count, interval = _at2_header(path, lines)
@@ -174,7 +178,8 @@ def read_at2_components(paths: Mapping[Axis, Path]) -> Accelerogram:
 
     Raises
     ------
-    InputError : as in :func:`read_at2`; intervals that differ
+    InputError
+        As in :func:`read_at2`; intervals that differ.
     """
     check_components(list(paths))
     read = {axis: read_at2(path) for axis, path in paths.items()}

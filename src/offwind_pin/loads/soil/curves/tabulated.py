@@ -35,7 +35,8 @@ def tabulated_curves(
 
     Raises
     ------
-    InputError : a table that cannot be read, or that has no curve in a layer
+    InputError
+        A table that cannot be read, or that has no curve in a layer.
     """
     table = read_numbers(path, columns)
     curves = _by_depth(path, columns, table.lines, table.values)
@@ -65,7 +66,8 @@ def soil_curves(curve: LinearModulus | TanhCurve | CurveTable, depth: Array) -> 
 
     Raises
     ------
-    InputError : a table that cannot be read
+    InputError
+        A table that cannot be read.
     """
     if isinstance(curve, LinearModulus):
         return LinearCurves(curve.modulus.at(depth))
@@ -79,7 +81,8 @@ def tabulated_curve(path: Path, columns: tuple[str, str]) -> SoilCurve:
 
     Raises
     ------
-    InputError : a table that cannot be read
+    InputError
+        A table that cannot be read.
     """
     table = read_numbers(path, columns)
     values = np.insert(table.values, 0, 0.0, axis=1)
