@@ -69,10 +69,11 @@ class NumberTable:
     Attributes
     ----------
     path : Path
-    names : tuple of str, cells of the header; none without a header
+    names : tuple of str
+        Cells of the header; none without a header.
     values : (n, c) array
-    lines : (n,) array
-        Of int, line of each row.
+    lines : (n,) int array
+        Line of each row.
     remarks : str
         Header and comments, as far as the first rows.
     """
@@ -112,7 +113,8 @@ def read_csv(path: Path, head: Callable[[list[str], str], tuple[str, ...]]) -> N
 
     Parameters
     ----------
-    head : callable, the names of the columns, from the cells of the header and its place in the file
+    head : callable
+        The names of the columns, from the cells of the header and its place in the file.
 
     Raises
     ------
@@ -181,8 +183,8 @@ def check_times(path: Path, time: Array, place: Lines, counted: str) -> None:
 
     Parameters
     ----------
-    place : (t,) array
-        Of int, where they are in the file, in what ``counted`` names.
+    place : (t,) int array
+        Where they are in the file, in what ``counted`` names.
 
     Raises
     ------
@@ -222,7 +224,8 @@ def check_time_unit(
     ----------
     remarks : str
         Header and comments, where a unit may be named.
-    coarsest, sampled : float
+    coarsest : float, s
+    sampled : int
         See :func:`read_time_columns`.
 
     Raises
@@ -313,7 +316,8 @@ class RowReader:
         Number of columns.
     separator : str or None
         Comma or blank; None for what each line has: blanks, commas or semicolons.
-    spoilt : callable, number for a cell that is none; without it such a cell is refused
+    spoilt : callable, optional
+        Number for a cell that is none; without it such a cell is refused.
     """
 
     def __init__(
@@ -415,8 +419,8 @@ def _read(
 
     Parameters
     ----------
-    remark : re.Pattern[str]
-        Pattern, what is no data.
+    remark : Pattern
+        What is no data.
     first : callable
         Names of the columns, from the first line that is no comment and its place; none where that
         line is a row already.
