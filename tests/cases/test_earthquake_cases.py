@@ -173,7 +173,7 @@ def test_bad_earthquakes(fault: str, folder: Path) -> None:
 
 def test_only_time_histories_are_shaken(folder: Path) -> None:
     path = case(folder, RECORD, analysis={"kind": "modes", "count": 4})
-    with pytest.raises(ow.InputError, match="does not take earthquake"):
+    with pytest.raises(ow.InputError, match="does not use earthquake"):
         load_case(path)
 
 

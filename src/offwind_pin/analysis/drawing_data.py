@@ -1,4 +1,4 @@
-"""What results carry so that figures, pages and reports can be made from them alone."""
+"""Data stored in results so that figures, pages and reports can be made from results alone."""
 
 from __future__ import annotations
 
@@ -23,15 +23,15 @@ Constants = dict[str, tuple[str, Array, dict[str, str]]]
 _SHOWN_DEPTHS = (1 / 15, 2 / 15, 1 / 4, 1 / 2, 3 / 4)
 """Depths over the embedded length at which a report shows p-y curves."""
 _UNUSED_END = 0.05
-"""m, end of the shown curves where nothing is known of the displacements reached."""
+"""m, end of the shown curves if the displacements reached are unknown."""
 _FULL_END = 0.1
 """End of the stored curves over the diameter of the pile."""
 
 
 def drawing_data(system: System) -> Constants:
-    """The outline of the wall, and the waves as components if there are any.
+    """Outline of the wall, and wave components.
 
-    Of a sea with more than 4000 components the fewest are kept that contain 99.9 % of its variance.
+    Of a sea with more than 4000 components, the fewest with 99.9 % of the variance are kept.
     """
     return outline(system) | _waves(system)
 
@@ -65,13 +65,50 @@ def static_dataset(system: System, state: StaticResult) -> xr.Dataset:
 
 
 def modes_dataset(system: System, result: ModalResult) -> xr.Dataset:
-    """Natural modes with their provenance and the data that a picture of them needs."""
-    attributes = system_attributes(system) | drawing_attributes(system)
-    return result.to_dataset().assign(outline(system)).assign_attrs(attributes)
+    """Natural modes with their provenance and the data for drawing them."""
+    attributes = system_attributes(system) | drawing_attributes(system) | _root(system)
+    drawn = outline(system) | _springs(system) | _strokes(system, result)
+    return result.to_dataset().assign(drawn).assign_attrs(attributes)
+
+
+def _root(system: System) -> dict[str, str]:
+    return {"root": "fixed" if system.foundation.root is None else "flexible"}
+
+
+def _springs(system: System) -> Constants:
+    """Heights of the lateral soil springs of a pile, if there are any."""
+    soil = soil_springs(system)
+    if soil is None:
+        return {}
+    about = {"long_name": "height of the soil spring", "units": "m"}
+    return {"spring_height": ("spring", soil.height, about)}
+
+
+def _strokes(system: System, result: ModalResult) -> dict[str, Any]:
+    """Heights of tuned mass dampers, and their strokes in each mode along x, y, z."""
+    masses = system.chain.tuned_masses
+    if not masses:
+        return {}
+    stroke = np.zeros((len(result.label), len(masses), 3))
+    sliding = iter(result.vector[system.chain.axis_joints :])
+    for d, mass in enumerate(masses):
+        for joint in mass.joints:
+            stroke[:, d, "xyz".index(joint[1])] = next(sliding)
+    about = {"long_name": "stroke with unit modal mass", "units": "kg^-1/2"}
+    return {
+        "damper": ("damper", [mass.name for mass in masses], {"long_name": "tuned mass damper"}),
+        "damper_height": (
+            "damper",
+            np.array([mass.height for mass in masses]),
+            {"long_name": "height", "units": "m"},
+        ),
+        "damper_stroke": (("mode", "damper", "direction"), stroke, about),
+    }
 
 
 def outline(system: System) -> Constants:
-    """Outer diameters at both ends of all frusta, upwards; heights repeat where it jumps."""
+    """Outer diameters at both ends of all frusta, upwards; heights repeat where the diameter
+    jumps."""
     chain = system.chain
     ends = [
         end
@@ -86,7 +123,7 @@ def outline(system: System) -> Constants:
 
 
 def structure_dataset(system: System) -> xr.Dataset:
-    """Dimensions, masses and foundation of a system, for its drawing and its table of facts."""
+    """Dimensions, masses and foundation of a system, for drawings and tables."""
     chain, turbine = system.chain, system.turbine
     boundary = chain.boundary
     member, height, diameter = _stations(system)
@@ -115,9 +152,6 @@ def structure_dataset(system: System) -> xr.Dataset:
             "kg",
         ),
     }
-    soil = soil_springs(system)
-    if soil is not None:
-        variables["spring_height"] = ("spring", soil.height, "height of the soil spring", "m")
     dampers = turbine.tuned_mass_dampers
     if dampers:
         frequency = [np.sqrt(mass.stiffness / mass.mass) / (2 * np.pi) for mass in dampers]
@@ -148,11 +182,11 @@ def structure_dataset(system: System) -> xr.Dataset:
             "yaw_bearing_m": chain.top,
             "water_depth_m": turbine.site.water_depth,
             "degrees_of_freedom": system.nv,
-            "root": "fixed" if system.foundation.root is None else "flexible",
+            **_root(system),
             "sea_in_words": sea_in_words(system),
             "surface": "calm" if waves is None else "waves",
         },
-    )
+    ).assign(_springs(system))
     if dampers:
         names = [mass.name for mass in dampers]
         data = data.assign_coords(damper=("damper", names, {"long_name": "tuned mass damper"}))
@@ -218,8 +252,8 @@ def damping_dataset(system: System) -> xr.Dataset | None:
 def soil_dataset(soil: SoilSprings, mudline: float, reached: Array | None = None) -> xr.Dataset:
     """Lateral p-y curves at all nodes of a pile, and the displacements reached.
 
-    The curves have 201 points up to what a report shows, and further ones up to a tenth of the
-    diameter of the pile.
+    The curves have 201 points in the range that a report shows, and further ones up to a tenth of
+    the pile diameter.
 
     Parameters
     ----------

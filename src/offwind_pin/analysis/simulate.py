@@ -1,4 +1,4 @@
-"""Time histories: from the static state under the mean loads, with every channel recorded."""
+"""Time histories."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ Start = Literal["static", "undeformed"]
 
 _BLOCK_SECONDS = 20.0
 _BLOCK_STEPS = 2000
-"""A block ends with an output and holds no more than either; it is what a killed run loses."""
+"""A block ends with an output and is no longer than either; a killed run loses at most one."""
 
 
 def simulate(
@@ -66,10 +66,10 @@ def simulate(
     provenance: dict[str, Any] | None = None,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Motion under waves and loads, by default by generalised-alpha with a fixed step.
+    """Time history under waves and loads, by default by generalised-alpha with a fixed step.
 
-    The start is the static state under the mean loads, at rest, unless told. During the ramp, waves
-    and the departures of the loads from their means rise to full strength.
+    By default the simulation starts at rest from the static state under the mean loads. During the
+    ramp, waves and the departures of the loads from their means increase to their full values.
 
     Parameters
     ----------
@@ -82,64 +82,65 @@ def simulate(
         Applied loads: at the yaw bearing a constant load (6,) Fx, Fy, Fz, Mx, My, Mz in N and N m,
         or a history, whose mean is taken over the time after the ramp; or point loads of your own.
     ramp : float
-        Seconds over which the fluctuations rise.
+        Duration in s over which waves and fluctuations increase.
     start : {"static", "undeformed"}
-        ``"static"``, or ``"undeformed"``: gravity and mean loads are applied at t = 0.
+        Initial state; with ``"undeformed"`` gravity and mean loads are applied at t = 0.
     ground_motion : GroundMotion, optional
-        An earthquake, at its own times whatever the ramp; displacements and accelerations are
-        recorded as they are absolutely, not relative to the ground.
+        Earthquake, not affected by the ramp; recorded displacements and accelerations are absolute,
+        not relative to the ground.
     output_dt : float, s, optional
         Interval of the output, a multiple of dt; by default every step.
     spectral_radius : float
         Numerical damping at infinite frequency, 1 for none.
     integrator : Integrator, optional
-        Instead of ``dt`` and ``spectral_radius``, see :mod:`offwind_pin.analysis.integrators`.
+        Integrator in place of ``dt`` and ``spectral_radius``.
     engine : {"compiled", "pinocchio"}, optional
-        What evaluates the equations of motion: ``"compiled"``, the default, or ``"pinocchio"``, the
-        only one for :class:`SciPyIVP`. What is recorded is evaluated from joint displacements,
-        velocities and accelerations by compiled code with either.
+        Implementation of the equations of motion: ``"compiled"``, the default, or ``"pinocchio"``,
+        which :class:`SciPyIVP` requires. With either, compiled code evaluates the records from
+        joint displacements, velocities and accelerations.
     heights : sequence of float, m, optional
-        Where motion and section loads are recorded, by default the element boundaries; mudline and
-        yaw bearing are added.
+        Heights at which motion and section loads are recorded, by default the element boundaries;
+        mudline and yaw bearing are added.
     segments : sequence of (float, float), m, optional
-        Pairs of heights whose equilibrium is recorded as ``segment_imbalance``, by default the
-        whole structure and its parts above and below the mudline.
+        Pairs of heights between which equilibrium is recorded as ``segment_imbalance``, by default
+        the whole structure and its parts above and below the mudline.
     directory : Path or str, optional
-        Where the results are kept as they come, ``results.nc`` in the end, so that memory does not
-        grow with the duration; the same call after a stop goes on where it left off, to bitwise the
-        same results.
+        Directory to which results are written during the run, finally as ``results.nc``, so that
+        memory does not increase with the duration. After a stop, the same call continues the run,
+        with bitwise the same results.
     provenance : dict of str to object, optional
-        Further attributes for the dataset.
+        Additional attributes of the dataset.
     progress : callable, optional
-        Called with the simulated time as it grows.
+        Called with the simulated time in s.
 
     Returns
     -------
     Dataset
-        With ``displacement``, ``acceleration``, ``section_force`` and ``section_moment``
-        over time and height, the mudline and tower-top channels, the applied load, ``soil_force``
-        at the nodes of the soil, the waves, the ground's motion in an earthquake, the displacements
-        of tuned mass dampers, the ledger of energies, the solver's own account, and what a picture
-        needs (:mod:`offwind_pin.analysis.drawing_data`); see ``attrs`` for versions, seeds and
-        settings. With a ``directory`` it reads from the file there, channel by channel as they are
-        asked for.
+        ``displacement``, ``acceleration``, ``section_force`` and ``section_moment`` over time and
+        height, mudline and tower-top channels, applied load, ``soil_force`` at the soil nodes,
+        waves, ground motion, displacements of tuned mass dampers, energies, solver statistics, and
+        data for drawing; ``attrs`` has versions, seeds and settings. With a ``directory`` channels
+        are read from the file when they are used.
 
     Raises
     ------
     InputError
-        An argument that cannot be used, a history that is too short, waves that would repeat, or a
-        time step too long for them.
+        An invalid argument, a history that is too short, waves that would repeat, or a time step
+        that is too long for the waves.
     SolverError
-        A step did not converge; ``results`` holds the dataset so far.
+        A step did not converge; ``results`` is the dataset so far.
     InterruptedSimulation
-        The user stopped it; ``results`` holds the dataset so far.
+        The user stopped the run; ``results`` is the dataset so far.
     """
     _check_settings(duration, dt, ramp, output_dt)
     if start not in get_args(Start):
         raise InputError("start", start, ", ".join(get_args(Start)), "Choose one.")
     if not isinstance(ground_motion, GroundMotion | None):
         raise InputError(
-            "ground_motion", type(ground_motion).__name__, "a GroundMotion or None", "Make one."
+            "ground_motion",
+            type(ground_motion).__name__,
+            "a GroundMotion or None",
+            "Create a GroundMotion.",
         )
     interval = dt if output_dt is None else output_dt
     method = integrator or GeneralizedAlpha(FixedStep(dt), spectral_radius)
@@ -147,7 +148,7 @@ def simulate(
     outputs = round(duration / interval)
     if abs(outputs * interval - duration) > 1e-6 * duration:
         raise InputError(
-            "duration", duration, f"a multiple of {interval} s, the output's interval", "Adjust it."
+            "duration", duration, f"a multiple of the output interval, {interval} s", "Adjust it."
         )
     acting = [_point_load(system, load, ramp, duration) for load in loads]
     chain = moving_chain(system, acting, ramp, ground_motion, engine)
@@ -162,7 +163,7 @@ def simulate(
     attributes = _provenance(system, chain.acting, ramp, interval, method)
     attributes |= {"engine": engine, "start": start}
     if ground_motion is not None:
-        attributes |= _told_of(ground_motion, dt, duration)
+        attributes |= _earthquake_attributes(ground_motion, dt, duration)
     attributes |= provenance or {}
     run = {
         **attributes,
@@ -229,15 +230,15 @@ def simulate(
 
 
 def _caution_of_travel(system: System, records: Records, cautioned: set[str]) -> None:
-    """Say once of each tuned mass damper that it goes further than it has room for."""
+    """Warn once for each tuned mass damper that exceeds its travel."""
     for d, mass in enumerate(system.chain.tuned_masses):
         way = np.linalg.norm(records["stroke"][:, d], axis=1)
         if mass.name not in cautioned and np.any(way > mass.travel):
             cautioned.add(mass.name)
             first = int(np.argmax(way > mass.travel))
             _log.warning(
-                "tuned mass damper %s slides %.3g m at t = %.6g s; it has room for %.3g m, and no "
-                "stop is modelled",
+                "tuned mass damper %s slides %.3g m at t = %.6g s, more than its travel of %.3g "
+                "m; end stops are not modelled",
                 mass.name,
                 way[first],
                 records["time"][first],
@@ -254,7 +255,7 @@ def _outputs_per_block(method: Integrator, interval: float) -> int:
 def _recorded_heights(
     system: System, heights: Sequence[float] | None, segments: Sequence[tuple[float, float]]
 ) -> Array:
-    """Heights of the records, rising: those asked for, mudline, top, and the segments' ends."""
+    """Heights of the records in increasing order: those given, mudline, top, and segment ends."""
     chain = system.chain
     asked = chain.boundary if heights is None else np.asarray(heights, dtype=float)
     ends = np.array([z for pair in segments for z in pair])
@@ -274,7 +275,7 @@ def _recorded_heights(
 def _segments(
     system: System, segments: Sequence[tuple[float, float]] | None
 ) -> list[tuple[float, float]]:
-    """The segments asked for; by default the whole, and what is above and below the mudline."""
+    """The given segments; by default the whole structure, and its parts at the mudline."""
     chain, mudline = system.chain, system.turbine.site.mudline
     if segments is None:
         pile = [(chain.base, mudline)] if chain.base < mudline else []
@@ -282,7 +283,7 @@ def _segments(
         return [(chain.base, chain.top), *above, *pile] if pile else above
     for low, high in segments:
         if not low < high:
-            raise InputError("segments", (low, high), "a lower and a higher end", "Exchange them.")
+            raise InputError("segments", (low, high), "a lower and a higher end", "Swap them.")
     return [(float(low), float(high)) for low, high in segments]
 
 
@@ -324,7 +325,7 @@ def _check_settings(duration: float, dt: float, ramp: float, output_dt: float | 
 def _point_load(
     system: System, load: PointLoad | LoadHistory | Array, ramp: float, duration: float
 ) -> PointLoad:
-    """What was given for a load as one that acts on this system."""
+    """A given load as a point load on this system."""
     if isinstance(load, np.ndarray):
         return constant_load(system.chain.top, load)
     if isinstance(load, LoadHistory):
@@ -373,8 +374,8 @@ def _fingerprint(chain: CompiledChain, sections: Sections) -> str:
             raise InputError(
                 f"{name}, method fingerprint",
                 f"{error} among the attributes",
-                "numbers, texts, arrays and objects made of them",
-                "Give the class a method fingerprint() -> str that hashes what determines its "
+                "numbers, strings, arrays and objects made of these",
+                "Add a method fingerprint() -> str that hashes everything that determines the "
                 "forces, or delete the directory to start again.",
             ) from None
     return content_hash(
@@ -389,7 +390,7 @@ def _fingerprint(chain: CompiledChain, sections: Sections) -> str:
 
 
 def _load_outputs(chain: CompiledChain, time: Array, ramp_factor: Array) -> Block:
-    """Channels of the loads that depend on time alone, those of one name summed."""
+    """Channels of the loads that depend on time alone; those of the same name are summed."""
     found = {"tower_top_load": np.zeros((len(time), 6)), "wave_elevation": np.zeros(len(time))}
     for load in chain.acting:
         for name, values in load.outputs(time, ramp_factor).items():
@@ -398,7 +399,7 @@ def _load_outputs(chain: CompiledChain, time: Array, ramp_factor: Array) -> Bloc
 
 
 def _of_whole_loads(chain: CompiledChain, records: Records) -> Records:
-    """Records whose energies are those of loads, not of their parts in compiled code."""
+    """Records with energies summed by load, not by part of a load in compiled code."""
     counts = [len(parts) for parts in chain.parts]
     if len(counts) == sum(counts):
         return records
@@ -411,18 +412,18 @@ def _of_whole_loads(chain: CompiledChain, records: Records) -> Records:
     return records | changed
 
 
-def _told_of_waves(system: System) -> dict[str, Any]:
-    """Attributes of the realised waves; what there is to say of them goes to the log, too."""
+def _wave_attributes(system: System) -> dict[str, Any]:
+    """Attributes of the realised waves; notes and cautions also go to the log."""
     facts = wave_facts(system)
     notes, cautions = facts.pop("notes", []), facts.pop("cautions", [])
     for note in notes:
         _log.info("waves: %s", note)
     for caution in cautions:
         _log.warning("waves: %s", caution)
-    told = {f"wave_{name}": value for name, value in facts.items()}
+    attributes = {f"wave_{name}": value for name, value in facts.items()}
     if notes or cautions:
-        told["wave_notes"] = " | ".join([*notes, *cautions])
-    return told
+        attributes["wave_notes"] = " | ".join([*notes, *cautions])
+    return attributes
 
 
 def _ground_levels(system: System, motion: GroundMotion | None) -> Array:
@@ -432,8 +433,8 @@ def _ground_levels(system: System, motion: GroundMotion | None) -> Array:
     return np.array([system.turbine.site.mudline]) if motion.height is None else motion.height
 
 
-def _told_of(motion: GroundMotion, dt: float, duration: float) -> dict[str, str]:
-    """Attributes on an earthquake; what looks wrong with it goes to the log as well."""
+def _earthquake_attributes(motion: GroundMotion, dt: float, duration: float) -> dict[str, str]:
+    """Attributes of an earthquake; cautions also go to the log."""
     cautions = ground_motion_cautions(motion, dt, duration)
     for caution in cautions:
         _log.warning("ground motion: %s", caution)
@@ -454,7 +455,7 @@ def _provenance(
         "foundation": system.foundation.name,
         "sea": repr(system.sea) if system.sea else "dry",
         "wave_seed": -1 if system.sea is None else system.sea.wave_seed,
-        **_told_of_waves(system),
+        **_wave_attributes(system),
         **drawing_attributes(system),
         **({"tower_top_load_origin": "none"} | joined_attributes(loads)),
         "surrogates": " | ".join(text for text in surrogates if text) or "none",

@@ -1,4 +1,4 @@
-"""The wind's drag on the tower of a system."""
+"""Wind drag on the tower of a system."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from offwind_pin.structure.section import outer_diameter
 def tower_drag(system: System, wind: TowerWind) -> TowerDrag:
     """Drag of a wind on a system's structure, for ``simulate(loads=[...])`` and ``static``.
 
-    It acts from the highest water level, or from still water level of a dry structure, up to the
+    It acts from the highest water surface, or from still water level for a dry structure, up to the
     yaw bearing.
 
     Parameters
@@ -29,14 +29,14 @@ def tower_drag(system: System, wind: TowerWind) -> TowerDrag:
     Raises
     ------
     InputError
-        Nothing of the structure is above water.
+        No part of the structure is above water.
     """
     low, top = max(_water_line(system), system.chain.base), system.chain.top
     if low >= top:
         raise InputError(
             "tower wind",
             f"a structure up to z = {top:g} m",
-            f"one that reaches above the water (z = {low:g} m)",
+            f"a structure that extends above the water (z = {low:g} m)",
             "Leave the wind out.",
         )
     count = int(np.ceil((top - low) / STRIP_LENGTH))
@@ -47,7 +47,7 @@ def tower_drag(system: System, wind: TowerWind) -> TowerDrag:
 
 
 def _water_line(system: System) -> float:
-    """Height in m that the water does not exceed; still water level of a dry structure."""
+    """Highest water surface in m; still water level for a dry structure."""
     if system.hydrodynamics is None:
         return 0.0
     return system.hydrodynamics.surface.highest

@@ -1,4 +1,4 @@
-"""What every definition is made of: numbers with their ranges, files, and the frozen base class."""
+"""Building blocks of definitions: numbers with ranges, files, and the frozen base class."""
 
 from __future__ import annotations
 
@@ -25,6 +25,7 @@ from pydantic import (
 from pydantic.fields import FieldInfo
 
 from offwind_pin.base.errors import InputError
+from offwind_pin.base.input_files import check_file, is_file
 from offwind_pin.base.validation import input_error
 
 Array = NDArray[np.float64]
@@ -33,7 +34,7 @@ ComplexArray = NDArray[np.complex128]
 
 def _reject_bool(value: Any) -> Any:
     if isinstance(value, bool):
-        raise ValueError("a number is needed, not true or false")
+        raise ValueError("expected a number, not true or false")
     return value
 
 
@@ -42,15 +43,16 @@ def _listed(value: Any) -> Any:
 
 
 def _locate(value: Any, validate: ValidatorFunctionWrapHandler, info: ValidationInfo) -> Path:
-    """Absolute path of a file; a relative one starts at the folder of the file that names it."""
+    """Absolute path of a file; a relative path refers to the folder of the file that contains
+    it."""
     recorded = None
     if isinstance(value, dict):
         if not {"path"} <= value.keys() <= {"path", "sha256"}:
-            raise ValueError("a file needs a path; give it alone, or as {path, sha256}")
+            raise ValueError("a file requires a path; give the path, or {path, sha256}")
         value, recorded = value["path"], value.get("sha256")
     folder = (info.context or {}).get("folder", "")
     path: Path = (folder / validate(value)).absolute()
-    if recorded is not None and path.is_file() and file_digest(path) != recorded:
+    if recorded is not None and is_file(path) and file_digest(path) != recorded:
         raise ValueError(
             f"{path} has changed since its SHA-256 was recorded; restore it, or leave sha256 out"
         )
@@ -58,7 +60,7 @@ def _locate(value: Any, validate: ValidatorFunctionWrapHandler, info: Validation
 
 
 def _file_record(path: Path) -> dict[str, str | None]:
-    return {"path": str(path), "sha256": file_digest(path) if path.is_file() else None}
+    return {"path": str(path), "sha256": file_digest(path) if is_file(path) else None}
 
 
 Number = Annotated[float, BeforeValidator(_reject_bool), Field(allow_inf_nan=False)]
@@ -72,11 +74,11 @@ Seed = Annotated[int, BeforeValidator(_reject_bool), Field(ge=0, lt=2**31)]
 Numbers = Annotated[tuple[Number, ...], BeforeValidator(_listed)]
 """Numbers in a row, from a list, a tuple or a one-dimensional array."""
 File = Annotated[Path, WrapValidator(_locate), PlainSerializer(_file_record, when_used="json")]
-"""Absolute path of a file. JSON has ``{path, sha256}``; reading it refuses a file that changed."""
+"""Absolute path of a file. JSON has ``{path, sha256}``; reading it rejects a changed file."""
 
 
 def key(name: str, *, default: Any = ..., kw_only: bool | None = None) -> Any:
-    """A field that files name otherwise than Python does, usually with its unit.
+    """A field with a different name in files, usually with its unit.
 
     Parameters
     ----------
@@ -132,7 +134,7 @@ class Definition(BaseModel):
         Raises
         ------
         InputError
-            A value that cannot be used, named by its field.
+            An invalid value, named by its field.
         """
         called = type(self).__name__
         if len(values) > len(self._positional):
@@ -149,14 +151,14 @@ class Definition(BaseModel):
         except ValidationError as error:
             raise input_error(called, named, error, type(self), by_alias=False) from None
 
-    # Nested definitions are then made by pydantic itself, which keeps the path to a fault.
+    # Lets pydantic make nested definitions itself, which keeps the path to a fault.
     __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined]
 
     def __str__(self) -> str:
         return repr(self)
 
     def __eq__(self, other: object) -> bool:
-        # By fields alone: pydantic compares what cached properties hold too, such as arrays.
+        # By fields alone: pydantic would also compare cached properties, such as arrays.
         return type(self) is type(other) and all(
             getattr(self, name) == getattr(other, name) for name in _fields(type(self))
         )
@@ -187,14 +189,14 @@ class Definition(BaseModel):
         Raises
         ------
         InputError
-            A value that cannot be used.
+            An invalid value.
         """
         kept = {name: getattr(self, name) for name in self.model_fields_set}
         return type(self)(**(kept | changes))
 
     @property
     def content_hash(self) -> str:
-        """SHA-256 of all that is defined; files count by their content and not by their path.
+        """SHA-256 of the definition; files count by their content, not by their path.
 
         Raises
         ------
@@ -210,7 +212,7 @@ _LONGEST = 160
 
 
 class _Brief:
-    """A value whose ``repr`` stays short and still tells it from another."""
+    """A value whose ``repr`` is short and still distinguishes it from others."""
 
     def __init__(self, value: object) -> None:
         self._value = value
@@ -227,7 +229,7 @@ class _Brief:
 
 
 def _signature(fields: dict[str, FieldInfo], positional: tuple[str, ...]) -> inspect.Signature:
-    """How a definition is called; pydantic would name fields as files do."""
+    """Signature of a definition; pydantic would use the names in files."""
     parameters: list[inspect.Parameter] = []
     needed = False  # a positional argument before one without a default has none itself
     for name in reversed(positional):
@@ -279,11 +281,23 @@ def file_digest(path: Path) -> str:
     Raises
     ------
     InputError
-        It cannot be read.
+        An unreadable file.
     """
+    check_file(path)
     try:
         with path.open("rb") as file:
             return hashlib.file_digest(file, "sha256").hexdigest()
     except OSError as error:
         reason = error.strerror or "unreadable"
         raise InputError(str(path), reason, "a readable file", "Check the path.") from None
+
+
+def origin_of(path: Path) -> str:
+    """Name and digest of a file, as an origin of data.
+
+    Raises
+    ------
+    InputError
+        An unreadable file.
+    """
+    return f"{path.name} (SHA-256 {file_digest(path)})"

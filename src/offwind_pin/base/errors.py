@@ -1,6 +1,6 @@
-"""The project's errors: one small hierarchy, each message naming the mistake and the remedy.
+"""Errors of the package: one small hierarchy with messages that name fault and remedy.
 
-All of them can be copied and pickled, so that a worker process hands them on as they are.
+All of them can be copied and pickled, so that worker processes can pass them on.
 """
 
 from __future__ import annotations
@@ -10,17 +10,16 @@ from typing import Any
 
 
 class OffwindError(Exception):
-    """Base of every error this package raises on purpose."""
+    """Base class of all errors that this package raises."""
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _restored, (type(self), self.args, self.__dict__)
 
 
 class InputError(OffwindError, ValueError):
-    """Something a user gave cannot be used.
+    """Invalid input.
 
-    The message names where it was found (file and field), what was received, what is allowed
-    and what to do about it.
+    The message names file and field, the value received, what is allowed, and a remedy.
 
     Attributes
     ----------
@@ -29,9 +28,9 @@ class InputError(OffwindError, ValueError):
     received : object
         The value, or a phrase that says what is wrong.
     allowed : str
-        What could be there; empty where ``received`` is such a phrase.
+        Allowed values; empty if ``received`` is such a phrase.
     remedy : str
-        One sentence.
+        Remedy in one sentence.
     """
 
     def __init__(self, where: str, received: object, allowed: str, remedy: str) -> None:
@@ -48,7 +47,7 @@ class InputError(OffwindError, ValueError):
 
 
 class SolverError(OffwindError, RuntimeError):
-    """A solve that did not converge, with the place where it stopped.
+    """A solution that did not converge.
 
     Attributes
     ----------
@@ -106,23 +105,23 @@ class InterruptedSimulation(OffwindError):
 
 
 def _restored(kind: type[OffwindError], arguments: tuple[Any, ...], state: Any) -> OffwindError:
-    """An error with its message and fields, made without its own arguments."""
+    """An error with its message and fields, created without calling its constructor."""
     error = kind.__new__(kind, *arguments)
     error.__dict__.update(state)
     return error
 
 
 def _portable(value: object) -> object:
-    """The value, or its text where another process could not be given it."""
+    """The value, or its text if it cannot be pickled."""
     try:
         pickle.dumps(value)
-    except Exception:  # whatever a foreign class raises
+    except Exception:  # anything that another class raises
         return repr(value)
     return value
 
 
 def _shorten(value: object, limit: int = 240) -> str:
-    # 18.0 rather than np.float64(18.0); NumPy is not imported for the sake of messages.
+    # 18.0 rather than np.float64(18.0), without importing NumPy.
     plain = getattr(value, "item", lambda: value)() if getattr(value, "shape", 1) == () else value
     text = plain if isinstance(plain, str) and " " in plain else repr(plain)
     return text if len(text) <= limit else text[: limit - 3] + "..."

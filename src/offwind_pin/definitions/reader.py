@@ -12,6 +12,7 @@ from pydantic import ValidationError
 
 from offwind_pin.base.definition import Definition
 from offwind_pin.base.errors import InputError
+from offwind_pin.base.input_files import is_file
 from offwind_pin.base.validation import input_error
 from offwind_pin.definitions.shipped import shipped_turbines
 from offwind_pin.definitions.turbine import Turbine
@@ -34,7 +35,7 @@ def load_turbine(name_or_path: str | Path) -> Turbine:
     Raises
     ------
     InputError
-        The name is unknown, or the file cannot be read or understood.
+        An unknown name, or a file that cannot be read or is not a valid definition.
     """
     path = find_definition(name_or_path, shipped_turbines(), "turbine")
     return read_definition(path, Turbine)
@@ -48,7 +49,7 @@ def find_definition(name_or_path: str | Path, shipped: list[str], kind: str) -> 
         with resources.as_file(resources.files("offwind_pin")) as package:
             return Path(package) / folder / f"{text.removeprefix('oc6-')}.yaml"
     path = Path(text)
-    if path.is_file():
+    if is_file(path):
         return path
     near = difflib.get_close_matches(text, shipped, n=1)
     hint = f"Did you mean {near[0]!r}?" if near else "Check the path."
@@ -58,7 +59,7 @@ def find_definition(name_or_path: str | Path, shipped: list[str], kind: str) -> 
 
 
 def read_definition(path: Path, kind: type[Kind]) -> Kind:
-    """A definition from a YAML file; relative paths in it start at its folder.
+    """A definition from a YAML file; paths in it are relative to its folder.
 
     Raises
     ------
@@ -73,7 +74,7 @@ def read_definition(path: Path, kind: type[Kind]) -> Kind:
 
 
 class _UniqueKeyLoader(yaml.SafeLoader):
-    """Safe loader that refuses a key given twice (YAML would keep the last in silence)."""
+    """Safe loader that rejects duplicate keys, of which YAML would silently keep the last."""
 
 
 def _mapping(loader: _UniqueKeyLoader, node: yaml.MappingNode) -> dict[Any, Any]:
@@ -81,7 +82,9 @@ def _mapping(loader: _UniqueKeyLoader, node: yaml.MappingNode) -> dict[Any, Any]
     for key_node, value_node in node.value:
         key = loader.construct_object(key_node, deep=True)
         if isinstance(key, list | dict):
-            raise yaml.MarkedYAMLError(problem="a key must be a name", problem_mark=node.start_mark)
+            raise yaml.MarkedYAMLError(
+                problem="a key must be a string", problem_mark=node.start_mark
+            )
         if key in seen:
             raise yaml.MarkedYAMLError(
                 problem=f"key {key!r} is given twice", problem_mark=key_node.start_mark
@@ -109,7 +112,10 @@ def _read_yaml(path: Path) -> dict[str, Any]:
         ) from None
     except (ValueError, TypeError, RecursionError) as error:
         raise InputError(
-            str(path), str(error), "valid YAML of numbers, texts, lists and mappings", "Correct it."
+            str(path),
+            str(error),
+            "valid YAML of numbers, strings, lists and mappings",
+            "Correct it.",
         ) from None
     if data is None:
         raise InputError(str(path), "an empty file", "a YAML mapping", "Fill in the definition.")

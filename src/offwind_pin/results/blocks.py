@@ -1,6 +1,6 @@
-"""Blocks of a time history: arrays by name, kept in memory, or as files that a killed run leaves.
+"""Blocks of a time history: arrays by name, in memory or in files that survive a killed run.
 
-Each file is written whole and holds the state at its end, so that a run goes on from the last one.
+Each file is written atomically and contains the state at its end, from which a run continues.
 """
 
 from __future__ import annotations
@@ -26,19 +26,19 @@ BLOCK_FOLDER = "blocks"
 
 
 class BlockStore(Protocol):
-    """Where the blocks of a run go."""
+    """Storage of the blocks of a run."""
 
     def append(self, block: Block) -> None:
-        """Keep a block."""
+        """Store a block."""
 
     def __iter__(self) -> Iterator[Block]:
-        """The blocks from the first on."""
+        """All blocks in order."""
 
     def __len__(self) -> int:
-        """Number of blocks kept."""
+        """Number of blocks."""
 
     def last(self) -> Block:
-        """The newest block."""
+        """The last block."""
 
 
 class MemoryStore:
@@ -66,14 +66,14 @@ class FolderStore:
     Parameters
     ----------
     folder : Path
-        Made if it is not there.
+        Created if necessary.
     run : dict of str to object
-        Plain data that tell this run from every other.
+        Plain data that identify the run.
 
     Raises
     ------
     InputError
-        The folder holds another run's blocks, or something else.
+        The folder contains blocks of another run, or other files.
     """
 
     def __init__(self, folder: Path, run: dict[str, object]) -> None:
@@ -102,9 +102,9 @@ class FolderStore:
         return self._read(self._count - 1)
 
     def remove(self) -> None:
-        """Delete the folder, once its blocks stand elsewhere.
+        """Delete the folder, after its blocks have been written elsewhere.
 
-        The label goes last, so that what a kill leaves is still known for this run's.
+        The label is deleted last, so that after a kill the rest can still be identified.
         """
         for number in reversed(range(self._count)):
             self._path(number).unlink()
@@ -133,9 +133,9 @@ class FolderStore:
             )
             raise InputError(
                 str(self.folder),
-                f"blocks of another run (other {', '.join(differs) or 'keys'})",
-                "blocks of this run, to go on from",
-                "Delete the folder to start again, or name another directory.",
+                f"blocks of another run (different {', '.join(differs) or 'keys'})",
+                "blocks of this run, from which to continue",
+                "Delete the folder to start again, or choose another directory.",
             )
 
 
@@ -153,4 +153,4 @@ def _read_block(path: Path) -> Block:
             return {name: file[name] for name in file.files}
     except (OSError, ValueError, zipfile.BadZipFile) as error:
         remedy = "Delete the folder to start again."
-        raise InputError(str(path), str(error), "a whole block of results", remedy) from None
+        raise InputError(str(path), str(error), "a complete block of results", remedy) from None

@@ -19,21 +19,21 @@ from offwind_pin.results.tree import TITLES
 Array = NDArray[np.float64]
 
 FRAME = "inertial: x downwind, y left looking downwind, z up from still water level"
-SECTION = "what the part above the section exerts on the part below"
+SECTION = "exerted by the part above the section on the part below"
 
 HOLDERS = ("kinetic", "gravitational", "elastic", "foundation")
 SINKS = ("joint_dampers", "foundation")
-"""What holds and what takes up energy besides the loads."""
+"""Stores and sinks of energy besides the loads."""
 
 
 @dataclass(frozen=True, eq=False)
 class HistoryWriter:
-    """Makes datasets, in memory or in a file, out of the blocks of a time history.
+    """Writes the blocks of a time history as a dataset, in memory or in a file.
 
     Attributes
     ----------
     mudline : float, m
-        Height.
+        Height of the mudline.
     height : (m,) array, m
         Heights of the records.
     segments : sequence of (float, float), m
@@ -41,19 +41,19 @@ class HistoryWriter:
     loads : sequence of str
         Names of the loads.
     stores : (L,) bool array
-        Whether each stores energy rather than works.
+        Whether each stores energy rather than doing work.
     attributes : dict of str to object
-        Of the dataset.
+        Attributes of the dataset.
     constants : mapping of str to (str, array, dict of str to str)
-        What does not change with time, by name: dimension, values, attributes.
+        Constants by name: dimension, values, attributes.
     levels : (D,) array, m
         Heights at which the ground's motion is recorded; none without an earthquake.
     dampers : mapping of str to float, m
         Travel of each tuned mass damper by its name.
     soil : (n,) array, m
-        Heights of the nodes of the soil; none where no soil acts along the pile.
+        Heights of the soil nodes; none without soil along the pile.
     load_channels : mapping of str to (tuple of str, str, str)
-        Of the loads, by name: dimensions after time, name in words, units.
+        Channels of the loads by name: dimensions after time, description, units.
     """
 
     mudline: float
@@ -69,9 +69,9 @@ class HistoryWriter:
     load_channels: Mapping[str, tuple[tuple[str, ...], str, str]] = field(default_factory=dict)
 
     def write(self, store: BlockStore, status: str, directory: Path | str | None) -> xr.Dataset:
-        """Dataset of all blocks; with a directory it stands in ``results.nc`` there.
+        """Dataset of all blocks; with a directory it is in ``results.nc`` there.
 
-        No more than one block is in memory at a time if the dataset goes to a file.
+        With a file, only one block is in memory at a time.
         """
         start = np.sum(next(iter(store))["stored"][0]) if len(store) else 0.0
         if directory is None:
@@ -86,7 +86,7 @@ class HistoryWriter:
         return xr.open_dataset(path, engine="netcdf4")
 
     def _dataset(self, block: Block, status: str, start: float) -> xr.Dataset:
-        """Channels of one block; start is the energy stored at the beginning in J."""
+        """Channels of one block; start is the initially stored energy in J."""
         at_mudline = int(np.argmin(np.abs(self.height - self.mudline)))
         load, displacement = block["section_load"], block["displacement"]
         along, top = ("time", "height", "direction"), ("time", "direction")
@@ -262,7 +262,7 @@ class HistoryWriter:
 
 
 def _ground_channels(motion: Array) -> dict[str, Any]:
-    """Channels of the ground's motion (t, D, 3, 3)."""
+    """Channels of the ground motion (t, D, 3, 3)."""
     along = ("time", "level", "direction")
     units = {"displacement": "m", "velocity": "m/s", "acceleration": "m/s2"}
     return {
@@ -272,7 +272,7 @@ def _ground_channels(motion: Array) -> dict[str, Any]:
 
 
 def versions() -> dict[str, str]:
-    """Versions of the programs that made a result."""
+    """Versions of the programs that produced a result."""
     return {
         "offwind_pin_version": metadata.version("offwind-pin"),
         "pinocchio_version": metadata.version("pin"),

@@ -10,7 +10,7 @@ from offwind_pin.base.errors import InputError
 
 FILE = "results.nc"
 _TITLE = "offwind-pin"
-_REMEDY = "Name the output directory of `offwind run`, or a results.nc."
+_REMEDY = "Give the output directory of `offwind run`, or a results.nc."
 
 
 def open_results(source: Path | str) -> xr.DataTree:
@@ -29,7 +29,7 @@ def open_results(source: Path | str) -> xr.DataTree:
     Raises
     ------
     InputError
-        No results found, or a file of another origin.
+        No results, or a file of another program.
     """
     given = Path(source)
     path = given / FILE if given.is_dir() else given
@@ -49,12 +49,12 @@ def open_results(source: Path | str) -> xr.DataTree:
 
 
 def open_case(source: Path | str) -> xr.DataTree:
-    """As :func:`open_results`, of a file that a case was written to with all its groups.
+    """As :func:`open_results`, for a complete file of a case with all groups.
 
     Raises
     ------
     InputError
-        As there; or only the main dataset is present.
+        As for :func:`open_results`; or only the main dataset is present.
     """
     tree = open_results(source)
     if "case" not in tree.children:

@@ -1,4 +1,4 @@
-"""Step policies: into how many equal steps the time between two outputs is divided."""
+"""Step policies: number of equal steps between two outputs."""
 
 from __future__ import annotations
 
@@ -111,12 +111,12 @@ class AdaptiveStep(StepPolicy):
     """Steps halved where the local error exceeds a tolerance, doubled where it is far below.
 
     The error of a step is estimated as |beta - 1/6| h^2 max|a_new - a|, the leading term of the
-    displacement that a second-order step leaves out (Zienkiewicz and Xie, 1991).
+    displacement that a second-order step neglects (Zienkiewicz and Xie, 1991).
 
     Attributes
     ----------
-    tolerance : float, m
-        Largest local error of a joint's displacement, or rad.
+    tolerance : float, m or rad
+        Largest local error of a joint's displacement.
     smallest, largest : float, s
         Bounds of the step.
     """
@@ -130,7 +130,7 @@ class AdaptiveStep(StepPolicy):
             _check_positive(name, getattr(self, name))
         if self.smallest > self.largest:
             allowed = f"at most the largest, {self.largest} s"
-            raise InputError("smallest", self.smallest, allowed, "Exchange them.")
+            raise InputError("smallest", self.smallest, allowed, "Swap them.")
 
     def first(self, interval: float) -> int:
         return max(1, math.ceil(interval / self.largest - 1e-9))

@@ -11,15 +11,14 @@ from offwind_pin.base.definition import Array
 from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.structure.chain import Chain, NDArrayInt
 from offwind_pin.structure.frustum import Frustum
-from offwind_pin.structure.section import frusta, outer_diameter
-from offwind_pin.structure.tuned_mass import TunedMass
+from offwind_pin.structure.section import frusta
 
 FACETS = 32
-"""Sides of what is round. Normals are smoothed around it, so that few suffice."""
+"""Number of sides of round parts; few suffice, since normals are smoothed around them."""
 
 _DISC = (0.6, 0.2)
 """Radius and thickness of the disc drawn for a tuned mass damper, over the structure's diameter
-there: it shows outside the wall."""
+there; it is visible outside the wall."""
 
 
 @dataclass(frozen=True)
@@ -45,7 +44,7 @@ class Mesh:
 
     @staticmethod
     def combine(parts: Sequence[Mesh]) -> Mesh:
-        """One mesh out of several."""
+        """Combine meshes."""
         starts = np.cumsum([0, *(len(part.vertices) for part in parts[:-1])])
         return Mesh(
             np.concatenate([part.vertices for part in parts]),
@@ -67,7 +66,7 @@ class Mesh:
 
 
 def body_meshes(turbine: Turbine, chain: Chain) -> dict[str, Mesh]:
-    """Hollow frusta of each rigid body of a chain, in its frame, by its name; the base first."""
+    """Hollow frusta of each rigid body of a chain, in its frame, by name from the base upwards."""
     result = {}
     for k, name in enumerate(chain.body_name):
         shells = frusta(turbine, chain.cut[k], chain.cut[k + 1])
@@ -77,9 +76,14 @@ def body_meshes(turbine: Turbine, chain: Chain) -> dict[str, Mesh]:
     return result
 
 
-def damper_disc(turbine: Turbine, mass: TunedMass) -> tuple[float, float]:
-    """Radius and thickness in m of the disc that stands for a tuned mass damper in pictures."""
-    diameter = float(outer_diameter(turbine, np.array([mass.height]))[0])
+def damper_disc(diameter: float) -> tuple[float, float]:
+    """Radius and thickness in m of the disc that represents a tuned mass damper in pictures.
+
+    Parameters
+    ----------
+    diameter : float, m
+        Of the structure at the damper's height.
+    """
     return _DISC[0] * diameter, _DISC[1] * diameter
 
 
@@ -91,7 +95,7 @@ def loft(sections: Array, *, capped: bool = True) -> Mesh:
     sections : (s, n, 3) array
         Points of each loop, anticlockwise seen from the last loop.
     capped : bool
-        Close the first and the last loop with a fan of triangles.
+        Whether to close the first and the last loop with a fan of triangles.
     """
     count, around = sections.shape[:2]
     low = np.arange((count - 1) * around).reshape(count - 1, around)
@@ -115,11 +119,6 @@ def hollow_frustum(base: float, shell: Frustum) -> Mesh:
     ]
     pairs = zip(rims, [*rims[1:], rims[0]], strict=True)
     return Mesh.combine([loft(np.array(pair), capped=False) for pair in pairs])
-
-
-def disc(radius: float, z: float, facets: int = 4 * FACETS) -> Mesh:
-    """Horizontal disc without thickness, facing up."""
-    return _fan(circle(radius, z, facets))
 
 
 def circle(radius: float, z: float, facets: int = FACETS) -> Array:

@@ -40,7 +40,7 @@ def test_numbers_are_read_and_replaced(oc6: ow.Turbine, path: str, value: float)
         ("soil.distributed_springs.curve.initial_modulus.gradiant", "Did you mean 'gradient'"),
         ("members.7.stations.0.z", "allowed: 0, 1"),
         ("materials.stel.density", "Did you mean 'steel'"),
-        ("site.gravity.more", "nothing below 'site.gravity'"),
+        ("site.gravity.more", "'site.gravity' has no further steps"),
         ("soil", "the path of a number"),
         ("name", "the path of a number"),
         ("", "step 1"),

@@ -107,7 +107,7 @@ FAULTS: dict[str, tuple[dict[str, Any], str, str]] = {
     ),
     "no layers": (layers(), "springs.curve", "no layers"),
     "first layer below": (layers({**SAND, "top_m": 2}), "springs.curve", "top_m = 0"),
-    "layers not rising": (layers(SAND, {**CLAY, "top_m": 0}), "springs.curve", "rise strictly"),
+    "layers not rising": (layers(SAND, {**CLAY, "top_m": 0}), "springs.curve", "increase strictly"),
     "PISA under cycles": (layers(TILL, loading="cyclic"), "springs.curve", "monotonic"),
     "cycles missing": (layers(STIFF, loading="cyclic"), "springs.curve", "number of cycles"),
     "cycles of static loading": (layers({**STIFF, "cycles": 10}), "springs.curve", "static"),
@@ -173,7 +173,7 @@ FAULTS: dict[str, tuple[dict[str, Any], str, str]] = {
     "no calibration": (
         layers({key: value for key, value in TILL.items() if key != "calibration"}),
         "layers.0",
-        "either calibration or parameters",
+        "one of calibration and parameters",
     ),
     "unnamed ratio": (
         layers(
@@ -193,17 +193,17 @@ FAULTS: dict[str, tuple[dict[str, Any], str, str]] = {
             }
         ),
         "parameters.lateral.initial_stiffness",
-        "not named",
+        "not given",
     ),
     "profile of unequal lengths": (
         layers({**CLAY, "undrained_shear_strength_pa": {"depth_m": [0, 5], "values": [2e4]}}),
         "undrained_shear_strength_pa",
-        "one value for each depth",
+        "one value per depth",
     ),
     "profile not rising": (
         layers({**CLAY, "undrained_shear_strength_pa": {"depth_m": [5, 5], "values": [2e4, 3e4]}}),
         "undrained_shear_strength_pa",
-        "rise strictly",
+        "increase strictly",
     ),
     "profile of zeros": (
         layers({**CLAY, "undrained_shear_strength_pa": {"depth_m": [5], "values": [0]}}),
@@ -223,7 +223,7 @@ FAULTS: dict[str, tuple[dict[str, Any], str, str]] = {
     "boundaries not rising": (
         {"kind": "table", "file": "a.csv", "boundaries_m": [5, 3]},
         "springs.curve",
-        "rise strictly",
+        "increase strictly",
     ),
 }
 
@@ -245,12 +245,15 @@ SHAFT = {"kind": "api", "soil": "sand", "skin_friction_pa": 5e4}
 SPRING_FAULTS: dict[str, tuple[dict[str, Any], str]] = {
     "nothing vertical": (
         {"toe_vertical_stiffness_n_per_m": None},
-        "nothing holds the pile vertically",
+        "nothing restrains the pile vertically",
     ),
-    "zero vertical": ({"toe_vertical_stiffness_n_per_m": 0}, "nothing holds the pile vertically"),
+    "zero vertical": (
+        {"toe_vertical_stiffness_n_per_m": 0},
+        "nothing restrains the pile vertically",
+    ),
     "nothing torsional": (
         {"toe_torsional_stiffness_nm_per_rad": None, "vertical": SHAFT},
-        "nothing holds the pile in torsion",
+        "nothing restrains the pile in torsion",
     ),
     "loss counted twice": ({"hysteretic": {"sliders": 20}, "dashpot": DASHPOT}, "count the same"),
     "few sliders": ({"hysteretic": {"sliders": 3}}, "greater than or equal to 4"),
@@ -262,7 +265,7 @@ SPRING_FAULTS: dict[str, tuple[dict[str, Any], str]] = {
         {"torsional": {**SHAFT, "skin_friction_pa": {"gradient": 2.5}}},
         "looks like kPa",
     ),
-    "friction of steel": ({"vertical": {**SHAFT, "skin_friction_pa": 6e7}}, "beyond any ground's"),
+    "friction of steel": ({"vertical": {**SHAFT, "skin_friction_pa": 6e7}}, "too large for soil"),
     "bearing in kPa": ({"toe_bearing": {"kind": "api", "end_bearing_pa": 12e3}}, "15000"),
     "constant dashpot that varies": (
         {
@@ -281,11 +284,11 @@ SPRING_FAULTS: dict[str, tuple[dict[str, Any], str]] = {
                 "damping_factor": {"displacement_m": [1e-3, 1], "factor": [0, 1, 1]},
             }
         },
-        "one factor for each",
+        "one factor per",
     ),
     "damping not rising": (
         {"dashpot": {**DASHPOT, "damping_factor": {"displacement_m": [1, 0.1], "factor": [0, 1]}}},
-        "rise strictly",
+        "increase strictly",
     ),
     "damping in percent": (
         {"dashpot": {**DASHPOT, "damping_factor": 5}},

@@ -56,7 +56,7 @@ FAULTS: dict[str, tuple[dict[str, Any], list[str]]] = {
     ),
     "height beside a spectrum": (
         spectrum(kind="tma", significant_height_m=2.0, peak_period_s=8.0) | {"peak_shape": 3.3},
-        ["Put peak_shape into it"],
+        ["inside spectrum"],
     ),
     "unknown spectrum": (spectrum(kind="ochi_hubble"), ["jonswap", "tma", "white_noise", "table"]),
     "misspelt key": (
@@ -74,11 +74,11 @@ FAULTS: dict[str, tuple[dict[str, Any], list[str]]] = {
     ),
     "noise without width": (
         spectrum(kind="white_noise", significant_height_m=2.0, lowest_hz=0.1, highest_hz=0.104),
-        ["3 components", "10 or more"],
+        ["3 components", "at least 10"],
     ),
     "density below zero": (table([0.1, 0.2, 0.3], [1, -1, 1]), ["density at 0.2 Hz", "-1.0"]),
     "unsorted table": (table([0.1, 0.3, 0.2], [1, 1, 1]), ["Sort the table"]),
-    "gap in the table": (table([0.1, 0.11, 0.12, 0.3], [1, 1, 1, 1]), ["rows missing"]),
+    "gap in the table": (table([0.1, 0.11, 0.12, 0.3], [1, 1, 1, 1]), ["missing rows"]),
     "word in the table": (table([0.1, 0.2, 0.3], [1, "x", 1]), ["density_m2_per_hz", "x"]),
     "not a number in the table": (
         table([0.1, 0.2, 0.3], [1, float("nan"), 1]),

@@ -138,12 +138,12 @@ ROTOR_FAULTS: dict[str, tuple[dict[str, Any], Change, list[str]]] = {
     "falling wind speeds": (
         SHIPPED,
         table("wind_speed_m_per_s", list(range(25, 5, -1))),
-        ["rise strictly"],
+        ["increase strictly"],
     ),
     "rated off the table": (
         SHIPPED,
         lambda rotor: rotor.update(rated_wind_speed_m_per_s=40.0),
-        ["rated_wind_speed_m_per_s", "Lengthen"],
+        ["rated_wind_speed_m_per_s", "Extend"],
     ),
     "geometry twice": (
         SHIPPED,

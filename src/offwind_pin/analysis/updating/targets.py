@@ -1,4 +1,4 @@
-"""Measured or published responses that a model shall meet, and the model's own."""
+"""Measured or published responses as targets, and the responses of a model."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ from offwind_pin.loads.sea.sea import Sea
 from offwind_pin.structure.chain import Elements
 
 _MODES = 12
-"""Modes computed, among which the labels of targets are sought."""
+"""Number of modes among which the labels of targets are sought."""
 _SHOWN = {"FA": 0, "SS": 1, "V": 2, "T": 5}
 
 
 class Responses:
-    """Responses of a turbine, each computed when first asked for; structural damping left out."""
+    """Responses of a turbine without structural damping, computed when first used."""
 
     def __init__(
         self,
@@ -44,13 +44,13 @@ class Responses:
 
     @cached_property
     def modes(self) -> ModalResult:
-        """About the state under gravity."""
+        """Modes about the state under gravity."""
         count = min(_MODES, self.system.nv)
         return modes(self.system, count, about=self.state(None))
 
     @cached_property
     def clamped(self) -> System:
-        """The structure above the mudline, rigidly held there."""
+        """The structure above the mudline, clamped there."""
         above = self._elements
         if isinstance(above, Mapping):
             above = {name: n for name, n in above.items() if name != "pile"}
@@ -68,7 +68,7 @@ class Responses:
 
 
 class Target(Protocol):
-    """A response that is to be met."""
+    """A response to be met."""
 
     @property
     def name(self) -> str:
@@ -88,7 +88,7 @@ class Target(Protocol):
         Parameters
         ----------
         responses : Responses
-            Of the model.
+            Responses of the model.
 
         Returns
         -------
@@ -134,7 +134,7 @@ class FrequencyTarget:
         Parameters
         ----------
         responses : Responses
-            Of the model.
+            Responses of the model.
 
         Returns
         -------
@@ -153,12 +153,12 @@ class DeflectionTarget:
     value, uncertainty : float, m
         Displacement and one standard deviation; with ``over_clamped`` the relative increase.
     height : float or None, m
-        Of the point of the axis; the yaw bearing by default.
+        Height of the point on the axis; by default the yaw bearing.
     tower_top_load : tuple of float or None, N and N m
         Fx, Fy, Fz, Mx, My, Mz; none by default.
     over_clamped : bool
-        Whether the increase over the same structure clamped at the mudline is meant, 0.143 for 14.3
-        %.
+        Whether the target is the relative increase over the structure clamped at the mudline, such
+        as 0.143 for 14.3 %.
     """
 
     value: float
@@ -190,7 +190,7 @@ class DeflectionTarget:
         Parameters
         ----------
         responses : Responses
-            Of the model.
+            Responses of the model.
 
         Returns
         -------
@@ -239,8 +239,8 @@ class ShapeTarget:
         _check(self.name, self.uncertainty, *self.height, *self.value)
         if len(self.height) != len(self.value) or len(self.height) < 2 or not any(self.value):
             sizes = f"{len(self.height)} heights and {len(self.value)} values"
-            allowed = "two or more heights with a value each, not all zero"
-            raise InputError(f"target {self.name!r}", sizes, allowed, "Give one for each.")
+            allowed = "two heights or more, one value per height, not all zero"
+            raise InputError(f"target {self.name!r}", sizes, allowed, "Give one value per height.")
 
     @property
     def name(self) -> str:
@@ -258,7 +258,7 @@ class ShapeTarget:
         Parameters
         ----------
         responses : Responses
-            Of the model.
+            Responses of the model.
 
         Returns
         -------

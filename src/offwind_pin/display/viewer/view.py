@@ -12,11 +12,11 @@ from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError
 from offwind_pin.display.viewer.history_frames import frames
 from offwind_pin.display.viewer.history_page import DURATION, render_time_history
+from offwind_pin.display.viewer.history_picture import HistoryPicture
 from offwind_pin.display.viewer.mode_frames import shapes
 from offwind_pin.display.viewer.modes_page import PLACES, render_modes
-from offwind_pin.display.viewer.stills import (
-    HistoryPicture,
-    ModesPicture,
+from offwind_pin.display.viewer.modes_picture import ModesPicture
+from offwind_pin.display.viewer.picture import (
     Picture,
     Progress,
     check_frames,
@@ -27,7 +27,7 @@ from offwind_pin.display.viewer.stills import (
 
 FPS = 25
 MODES_DURATION = 8.0
-"""s of a film of modes, unless told otherwise."""
+"""Default duration in s of a film of modes."""
 MODES_SPEED = 0.5
 """How many times as fast as in reality modes move in a film."""
 
@@ -43,7 +43,7 @@ class View:
     start, duration : float or None, s
         Of the part; by default the first 60 s after the ramp, of modes 8 s.
     labels : list of str or None
-        Modes side by side, by default the first that bend.
+        Modes side by side, by default the first bending modes.
     """
 
     results: xr.Dataset
@@ -55,9 +55,9 @@ class View:
         if not (self.moves or "shape" in self.results):
             raise InputError(
                 "results",
-                str(self.results.attrs.get("title", "something else")),
+                str(self.results.attrs.get("title", "other results")),
                 "a time history or natural modes",
-                "Nothing moves in these.",
+                "Choose results that can be animated.",
             )
         if self.moves and self.labels is not None:
             allowed = "none for a time history without the modes of its case"

@@ -41,8 +41,8 @@ class RecordFile(Definition):
             )
         if self.at2 is not None and (self.acceleration_unit or self.components):
             raise ValueError(
-                "acceleration_unit and components have no effect on at2 files, which are in g "
-                "and by axis; leave them out"
+                "at2 files name their unit and are given by axis; leave acceleration_unit and "
+                "components out"
             )
         if self.file is not None and not (self.acceleration_unit and self.components):
             raise ValueError(
