@@ -126,7 +126,7 @@ class Equations:
                 continue
             seen = points if time is None else self._seen(now, points)
             tangents = load.tangents(now, seen[part], ramp_factor, past)
-            moved = motion.derivatives(self.points[part], points[part]).position
+            moved = motion.position_derivatives(self.points[part], points[part].position)
             change = np.einsum("nij,njk->nik", tangents.inertia, moved)
             total -= np.tensordot(moved, change, axes=([0, 1], [0, 1]))
         return total
@@ -235,9 +235,10 @@ class Equations:
         seen = self._seen(time, state.points)
         ramp_factor = float(smooth_ramp(np.array(time), self.ramp_time))
         by_q, by_v, by_a = np.zeros((3, len(q), len(q)))
+        derivatives = state.motion.derivatives(self.points, state.points)
         for load, part, past in zip(self.loads, self._parts, self._memory[:-1], strict=True):
             tangents = load.tangents(time, seen[part], ramp_factor, past)
-            how = state.motion.derivatives(self.points[part], state.points[part])
+            how = derivatives[part]
             change = np.einsum("nij,njk->nik", tangents.stiffness, how.position)
             change += np.einsum("nij,njk->nik", tangents.damping, how.velocity_by_q)
             change += np.einsum("nij,njk->nik", tangents.inertia, how.acceleration_by_q)
