@@ -114,9 +114,7 @@ class ChainMotion:
         displacement[:, 2] -= points.height
         twist, rate = self.twist[points.body], self.twist_rate[points.body]
         velocity = twist[:, :3] + cross(twist[:, 3:], position)
-        acceleration = (
-            rate[:, :3] + cross(rate[:, 3:], position) + cross(twist[:, 3:], velocity)
-        )
+        acceleration = rate[:, :3] + cross(rate[:, 3:], position) + cross(twist[:, 3:], velocity)
         turn = axial_vector(self.rotation[points.body])
         return PointMotion(position, displacement, velocity, axis, acceleration, turn, twist[:, 3:])
 

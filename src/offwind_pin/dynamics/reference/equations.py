@@ -80,6 +80,7 @@ class Equations:
         self.model, self.data = system.pin_model, system.scratch.data
         self._ground_motion = ground_motion
         self._base_excitation = base_excitation_of(system, self.loads, ground_motion)
+        self._ground_now: tuple[float, Array] | None = None
         if ground_motion is not None:
             self.model = pin.Model(system.pin_model)  # its gravity will change
         heights = [np.zeros(0), *(load.height for load in self.loads)]
@@ -188,7 +189,11 @@ class Equations:
         """(P + 1, 3, 3) ground's displacement, velocity, acceleration at points and base."""
         if self._ground_motion is None:
             return self._base_excitation.at(np.zeros((0, 3, 3)))
-        return self._base_excitation.at(self._ground_motion.motion(np.array([time]))[0])
+        # A step asks for one instant again and again.
+        if self._ground_now is None or self._ground_now[0] != time:
+            moved = self._ground_motion.motion(np.array([time]))[0]
+            self._ground_now = time, self._base_excitation.at(moved)
+        return self._ground_now[1]
 
     def _lean(self, time: float) -> None:
         """Let gravity pull as it does seen from a base that accelerates."""
