@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
+
+from offwind_pin.analysis.foundation.registry import FOUNDATIONS
 
 _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 MINUS, DASH, TIMES = "\u2212", "\u2013", "\u00d7"
@@ -11,23 +14,20 @@ _NO_BREAK = "\u00a0"
 _ROUNDING = 5e-4
 
 
-_FOUNDATIONS = {
-    "clamped": "clamped at the mudline",
-    "apparent_fixity": "apparent fixity below the mudline",
-    "coupled_springs": "coupled springs at the mudline",
-    "distributed_springs": "distributed springs",
-    "macro_element": "macro-element at the mudline",
-}
-
-
 def foundation_name(name: str) -> str:
-    """A foundation in plain words; somebody else's by its own name."""
-    return _FOUNDATIONS.get(name, name)
+    """A foundation in plain words; one that is not registered by its own name."""
+    return FOUNDATIONS[name].description if name in FOUNDATIONS else name
 
 
-def base_name(foundation: str) -> str:
-    """What the lower end of a chain is that reaches below the mudline."""
-    return "apparent fixity" if foundation == "apparent_fixity" else "pile toe"
+def supported_on(name: str) -> str:
+    """A foundation with its preposition."""
+    preposition = FOUNDATIONS[name].preposition if name in FOUNDATIONS else "on"
+    return f"{preposition} {foundation_name(name)}".strip()
+
+
+def base_name(name: str) -> str:
+    """What the lower end of a structure is that reaches below the mudline."""
+    return FOUNDATIONS[name].lower_end if name in FOUNDATIONS else "lower end"
 
 
 def water_level_name(level: float) -> str:
@@ -114,3 +114,9 @@ def sentence(text: str) -> str:
     """First letter large, full stop at the end."""
     text = text.strip()
     return text[:1].upper() + text[1:] + ("" if text.endswith((".", "!", "?")) else ".")
+
+
+def surrogate_notes(attributes: Mapping[str, object]) -> list[str]:
+    """What results say of each surrogate that they were computed with."""
+    notes = str(attributes.get("surrogates", "none")).split(" | ")
+    return [note for note in notes if note not in {"", "none"}]

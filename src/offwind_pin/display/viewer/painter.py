@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from offwind_pin.base.definition import Array
 from offwind_pin.structure.meshes import Mesh
@@ -21,9 +22,12 @@ class Camera:
 
     Attributes
     ----------
-    centre : (3,) in m, the middle of the picture
-    towards : (3,) unit vector from there to the camera
-    distance : between them in m
+    centre : (3,) array, m
+        The middle of the picture.
+    towards : (3,) array
+        Unit vector from there to the camera.
+    distance : float, m
+        Between them.
     """
 
     centre: Array
@@ -62,8 +66,10 @@ def paint(camera: Camera, surfaces: Sequence[Surface]) -> tuple[Array, Array]:
 
     Returns
     -------
-    corners : (t, 3, 2) as :meth:`Camera.project` has them
-    colours : (t, 4) red, green, blue and opacity
+    corners : (t, 3, 2) array
+        As :meth:`Camera.project` has them.
+    colours : (t, 4) array
+        Red, green, blue and opacity.
     """
     corners, colours, depths = [], [], []
     for surface in surfaces:
@@ -83,6 +89,18 @@ def paint(camera: Camera, surfaces: Sequence[Surface]) -> tuple[Array, Array]:
         depths.append(seen[shown, :, 2].mean(axis=1))
     order = np.argsort(-np.concatenate(depths), kind="stable")
     return np.concatenate(corners)[order], np.concatenate(colours)[order]
+
+
+def smallest_turn(start: Array, direction: Array) -> Array:
+    """(3, 3) the smallest rotation of an axis (3,) into a direction (3,) of any length."""
+    along = direction / np.linalg.norm(direction)
+    axis = np.cross(start, along)
+    sine = np.linalg.norm(axis)
+    if sine < 1e-12:  # either is the same, or the opposite, by half a turn about any normal
+        axis = np.cross(start, np.roll(start, 1))
+        sine = np.linalg.norm(axis)
+    angle = np.arccos(np.clip(start @ along, -1.0, 1.0))
+    return np.asarray(Rotation.from_rotvec(angle * axis / sine).as_matrix())
 
 
 def _brightness(normal: Array) -> Array:

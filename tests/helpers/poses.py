@@ -1,4 +1,4 @@
-"""Where the rigid bodies of a system are, for drawing."""
+"""Where the rigid bodies of a system are, by Pinocchio."""
 
 from __future__ import annotations
 
@@ -17,11 +17,13 @@ def body_poses(system: System, q: Array) -> Array:
 
     Parameters
     ----------
-    q : (nv,) joint displacements in m and rad
+    q : (nv,) array, m and rad
+        Joint displacements.
 
     Returns
     -------
-    (N + 1, 4, 4) homogeneous transforms from body to inertial axes, lengths in m
+    (N + 1, 4, 4) array
+        Homogeneous transforms from body to inertial axes, lengths in m.
     """
     import pinocchio as pin
 
@@ -32,13 +34,3 @@ def body_poses(system: System, q: Array) -> Array:
     if not chain.free_root:
         poses[0, 2, 3] = chain.base
     return poses
-
-
-def sliding_mass_poses(system: System, q: Array) -> Array:
-    """(D, 4, 4) poses of the masses of tuned mass dampers, turned as their carriers are."""
-    import pinocchio as pin
-
-    model, data = system.pin_model, system.scratch.data
-    pin.forwardKinematics(model, data, q)
-    joints = [model.getJointId(mass.joint_names[-1]) for mass in system.chain.tuned_masses]
-    return np.array([data.oMi[joint].homogeneous for joint in joints]).reshape(-1, 4, 4)
