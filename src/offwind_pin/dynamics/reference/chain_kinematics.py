@@ -246,7 +246,7 @@ def dof_body(chain: Chain) -> NDArrayInt:
 
 
 def cross(a: Array, b: Array) -> Array:
-    """(..., 3) products of vectors; NumPy's function takes several times as long for few of them."""
+    """(..., 3) products of vectors; for few of them several times as fast as NumPy's."""
     product = np.empty(np.broadcast_shapes(a.shape, b.shape))
     for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
         product[..., i] = a[..., j] * b[..., k] - a[..., k] * b[..., j]
