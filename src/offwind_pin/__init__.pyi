@@ -6,6 +6,7 @@ from offwind_pin.analysis.integrators import GeneralizedAlpha, Integrator, SciPy
 from offwind_pin.analysis.modal import ModalResult, modes
 from offwind_pin.analysis.simulate import simulate
 from offwind_pin.analysis.static import StaticResult, static
+from offwind_pin.base.channels import Channel
 from offwind_pin.base.errors import InputError, InterruptedSimulation, OffwindError, SolverError
 from offwind_pin.cases.case import Case, load_case
 from offwind_pin.cases.run import run_case
@@ -17,7 +18,6 @@ from offwind_pin.dynamics.system import System
 from offwind_pin.formats.urdf_folder import export_urdf
 from offwind_pin.loads.earthquake.ground_motion import GroundMotion
 from offwind_pin.loads.point_load import (
-    Channel,
     PointForces,
     PointLoad,
     PointMotion,

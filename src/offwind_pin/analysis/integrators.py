@@ -15,6 +15,7 @@ from offwind_pin.base.errors import InputError
 from offwind_pin.definitions.engine import Engine
 from offwind_pin.dynamics.compiled.chain import CompiledChain
 from offwind_pin.dynamics.compiled.recorder import Cuts, Recorder, Segments
+from offwind_pin.results.channels import CHANNELS
 from offwind_pin.solvers.generalized_alpha import (
     CONVERGED,
     REASONS,
@@ -338,20 +339,7 @@ def _too_inexact(attempt: _Advanced, step: float) -> StepFailed:
 
 def _channels(recorder: Recorder, step: float) -> Records:
     """What was recorded, all with steps of one size in s."""
-    names = (
-        "time",
-        "displacement",
-        "acceleration",
-        "section_load",
-        "imbalance",
-        "soil_force",
-        "stroke",
-        "stored",
-        "dissipated",
-        "worked",
-        "iterations",
-        "residual",
-    )
+    names = {"time", *(channel.record for channel in CHANNELS)} & Recorder.__annotations__.keys()
     channels = {name: getattr(recorder, name) for name in names}
     channels["iterations"] = recorder.iterations.astype(np.int32)
     return channels | {"step": np.full(len(recorder.time), step)}

@@ -23,6 +23,7 @@ from offwind_pin.analysis.integrators import (
 )
 from offwind_pin.analysis.static import static
 from offwind_pin.analysis.wave_checks import check_waves, wave_facts
+from offwind_pin.base.channels import Channel
 from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError, InterruptedSimulation, SolverError
 from offwind_pin.base.fingerprint import NoFingerprintError, content_hash
@@ -32,8 +33,10 @@ from offwind_pin.dynamics.compiled.chain import CompiledChain
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.earthquake.ground_motion import GroundMotion, ground_motion_cautions
 from offwind_pin.loads.point_load import PointLoad, joined_attributes
-from offwind_pin.loads.tower_top.load_history import LoadHistory, constant_load
+from offwind_pin.loads.sea.forces.morison import WAVE_ELEVATION
+from offwind_pin.loads.tower_top.load_history import TOWER_TOP_LOAD, LoadHistory, constant_load
 from offwind_pin.results.blocks import BLOCK_FOLDER, Block, BlockStore, FolderStore, MemoryStore
+from offwind_pin.results.channels import CHANNELS
 from offwind_pin.results.dataset import HistoryWriter, versions
 from offwind_pin.solvers.steps import FixedStep
 
@@ -160,15 +163,11 @@ def simulate(
         [load.name for load in chain.acting],
         np.array([parts[0].stores_energy for parts in chain.parts], dtype=np.bool_),
         attributes,
-        drawing_data(system),
+        drawing_data(system) | _travel(system),
         _ground_levels(system, ground_motion),
-        {mass.name: mass.travel for mass in system.chain.tuned_masses},
+        [mass.name for mass in system.chain.tuned_masses],
         chain.soil.height,
-        {
-            channel.name: (channel.dims, channel.long_name, channel.units)
-            for load in chain.acting
-            for channel in load.channels
-        },
+        _load_channels(chain.acting),
     )
     cautioned: set[str] = set()
     if len(store) == 0:
@@ -367,9 +366,34 @@ def _fingerprint(chain: CompiledChain, sections: Sections) -> str:
     )
 
 
+def _load_channels(loads: Sequence[PointLoad]) -> list[Channel]:
+    """Channels of loads, those of one name once, and the two that every run has.
+
+    Raises
+    ------
+    InputError : two different channels of one name
+    """
+    found = {channel.name: channel for channel in (TOWER_TOP_LOAD, WAVE_ELEVATION)}
+    known = {channel.name: channel for channel in CHANNELS}
+    for load in loads:
+        for channel in load.channels:
+            other = known.get(channel.name) or found.setdefault(channel.name, channel)
+            if other != channel:
+                raise InputError(
+                    f"load {load.name!r}, channel {channel.name!r}",
+                    f"{channel.units}, {channel.long_name!r}",
+                    f"a name of its own: there is one in {other.units}, {other.long_name!r}",
+                    "Rename it.",
+                )
+    return list(found.values())
+
+
 def _load_outputs(chain: CompiledChain, time: Array, ramp_factor: Array) -> Block:
     """Channels of the loads that depend on time alone, those of one name summed."""
-    found = {"tower_top_load": np.zeros((len(time), 6)), "wave_elevation": np.zeros(len(time))}
+    found = {
+        TOWER_TOP_LOAD.name: np.zeros((len(time), 6)),
+        WAVE_ELEVATION.name: np.zeros(len(time)),
+    }
     for load in chain.acting:
         for name, values in load.outputs(time, ramp_factor).items():
             found[name] = found[name] + values if name in found else values
@@ -388,6 +412,15 @@ def _of_whole_loads(chain: CompiledChain, records: Records) -> Records:
         parts = np.add.reduceat(records[name][:, own:], begin, axis=1)
         changed[name] = np.hstack([records[name][:, :own], parts])
     return records | changed
+
+
+def _travel(system: System) -> dict[str, tuple[str, Array, dict[str, str]]]:
+    """Available travel of the tuned mass dampers; empty without any."""
+    dampers = system.chain.tuned_masses
+    if not dampers:
+        return {}
+    about = {"long_name": "available travel of a tuned mass damper", "units": "m"}
+    return {"tuned_mass_travel": ("damper", np.array([mass.travel for mass in dampers]), about)}
 
 
 def _told_of_waves(system: System) -> dict[str, Any]:

@@ -1,0 +1,48 @@
+"""What a channel of a time history is: one row of the table of channels."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from offwind_pin.base.descriptions import one_line
+
+FRAME = "inertial: x downwind, y left looking downwind, z up from still water level"
+
+
+@dataclass(frozen=True, repr=False)
+class Channel:
+    """A quantity over time in the results.
+
+    Attributes
+    ----------
+    name : str, in the dataset; channels of one name given by several loads are summed
+    dims : tuple of str, dimensions after ``time``: none, ``("component",)`` for Fx to Mz, or
+        ``("direction",)`` for x, y, z
+    units : str
+    long_name : str
+    dtype : str, of the numbers in ``results.nc``; in memory they have double precision
+    frame : str, of its directions and signs; empty for a scalar
+    openfast_alias : str, channels of OpenFAST that give the same
+    """
+
+    name: str
+    dims: tuple[str, ...]
+    units: str
+    long_name: str
+    dtype: Literal["float64", "float32", "int32"] = "float64"
+    frame: str = FRAME
+    openfast_alias: str = ""
+
+    __repr__ = one_line
+
+    @property
+    def attributes(self) -> dict[str, str]:
+        """Attributes of the variable."""
+        found = {
+            "long_name": self.long_name,
+            "units": self.units,
+            "frame": self.frame,
+            "openfast_alias": self.openfast_alias,
+        }
+        return {name: text for name, text in found.items() if text}
