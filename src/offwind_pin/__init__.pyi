@@ -2,7 +2,13 @@
 
 from offwind_pin import plots, sea, signal, soil, viewer, wind
 from offwind_pin.analysis.build import build
-from offwind_pin.analysis.integrators import GeneralizedAlpha, Integrator, SciPyIVP
+from offwind_pin.analysis.integrators import (
+    GeneralizedAlpha,
+    Integrator,
+    OneStepMethod,
+    SciPyIVP,
+    StepFailed,
+)
 from offwind_pin.analysis.modal import ModalResult, modes
 from offwind_pin.analysis.simulate import simulate
 from offwind_pin.analysis.static import StaticResult, static
@@ -29,6 +35,7 @@ from offwind_pin.loads.sea.waves.spectra import JonswapSpectrum
 from offwind_pin.loads.tower_top.load_history import LoadHistory, read_load_history
 from offwind_pin.loads.wind.rotor_thrust import RotorThrust
 from offwind_pin.results.reading import open_results
+from offwind_pin.results.save_at import SaveAt
 
 # Names that have moved to a namespace can still be imported from here.
 from offwind_pin.sea import Crest as Crest
@@ -99,15 +106,18 @@ __all__ = [
     "LoadHistory",
     "ModalResult",
     "OffwindError",
+    "OneStepMethod",
     "PointForces",
     "PointLoad",
     "PointMotion",
     "PointTangents",
     "RegularWaves",
     "RotorThrust",
+    "SaveAt",
     "SciPyIVP",
     "SolverError",
     "StaticResult",
+    "StepFailed",
     "StepPolicy",
     "StillWater",
     "System",

@@ -81,6 +81,43 @@ def test_one_name_is_one_channel(
         ow.simulate(system, 0.1, 0.1, loads)
 
 
+def test_channels_that_are_kept(system: ow.System, tmp_path: Path) -> None:
+    """Those asked for, with the numbers of a run that keeps all; in the blocks and the file too."""
+    whole = ow.simulate(system, 0.4, 0.1, [PUSH])
+    kept = ["energy_balance", "mudline_force", "tower_top_load"]
+    save_at = ow.SaveAt(0.2, channels=kept)
+    few = ow.simulate(system, 0.4, 0.1, [PUSH], save_at=save_at, directory=tmp_path).load()
+    assert {name for name in few.data_vars if "time" in few[name].dims} == set(kept)
+    for name in kept:
+        np.testing.assert_array_equal(few[name], whole[name][::2])
+    few.close()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "field"),
+    [
+        ({"save_at": {"channels": ["mudline_force", "mudline_torque"]}}, "mudline_torque"),
+        ({"save_at": {"channels": ["soil_force"]}}, "soil_force"),
+        ({"save_at": {"output_dt": 0.0}}, "output_dt"),
+        ({"save_at": {"output_dt": 0.15}}, "output_dt"),
+        ({"save_at": {"segments": [(5.0, -5.0)]}}, "segments"),
+        ({"save_at": {"heights": [200.0]}}, "heights"),
+        ({"dt": 0.1, "integrator": ow.GeneralizedAlpha(ow.FixedStep(0.1))}, "dt"),
+        ({"dt": None, "integrator": ow.GeneralizedAlpha(ow.AdaptiveStep())}, "save_at"),
+    ],
+)
+def test_settings_that_cannot_be_used(
+    system: ow.System, arguments: dict[str, Any], field: str
+) -> None:
+    def solve(dt: float | None = 0.1, **settings: Any) -> xr.Dataset:
+        if "save_at" in settings:
+            settings["save_at"] = ow.SaveAt(**settings["save_at"])
+        return ow.simulate(system, 0.6, dt, **settings)
+
+    with pytest.raises(ow.InputError, match=field):
+        solve(**arguments)
+
+
 def test_page_prints_the_table() -> None:
     """``python docs/channels.py`` would change nothing; of another table the page would differ."""
     script = runpy.run_path(str(ROOT / "docs" / "channels.py"))

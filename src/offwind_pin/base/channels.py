@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Literal
+from types import EllipsisType
+from typing import TYPE_CHECKING, Any, Literal
 
 from offwind_pin.base.descriptions import one_line
+
+if TYPE_CHECKING:
+    from offwind_pin.base.definition import Array
 
 FRAME = "inertial: x downwind, y left looking downwind, z up from still water level"
 
@@ -24,6 +29,9 @@ class Channel:
     dtype : str, of the numbers in ``results.nc``; in memory they have double precision
     frame : str, of its directions and signs; empty for a scalar
     openfast_alias : str, channels of OpenFAST that give the same
+    record : str, array (t, ...) that it is taken from; empty for one of its own name
+    at : str, the height that it is about, where the array is over all recorded heights
+    part : index of the array, after that of the height
     """
 
     name: str
@@ -33,6 +41,9 @@ class Channel:
     dtype: Literal["float64", "float32", "int32"] = "float64"
     frame: str = FRAME
     openfast_alias: str = ""
+    record: str = ""
+    at: Literal["", "mudline", "tower_top"] = ""
+    part: EllipsisType | tuple[Any, ...] = ...
 
     __repr__ = one_line
 
@@ -46,3 +57,17 @@ class Channel:
             "openfast_alias": self.openfast_alias,
         }
         return {name: text for name, text in found.items() if text}
+
+    def values(self, records: Mapping[str, Array], index: Mapping[str, Any]) -> Array:
+        """The numbers (t, ...).
+
+        Parameters
+        ----------
+        records : arrays by name
+        index : entries that are kept, by dimension, and those of the heights that ``at`` names
+        """
+        found = records[self.record or self.name]
+        for name in (self.at, *self.dims):
+            if name in index:
+                found = found[:, index[name]]
+        return found[self.part]

@@ -46,6 +46,7 @@ from offwind_pin.loads.sea.sea import Sea
 from offwind_pin.results.blocks import time_reached
 from offwind_pin.results.dataset import versions
 from offwind_pin.results.reading import FILE, analysed, open_case
+from offwind_pin.results.save_at import SaveAt
 from offwind_pin.results.tree import prefixed
 from offwind_pin.signal.moment_spectrum import moment_spectrum
 
@@ -191,7 +192,7 @@ def _solve_transient(
         ramp=analysis.ramp,
         ground_motion=None if shaking is None else shaking.motion,
         engine=analysis.engine,
-        output_dt=analysis.output_dt,
+        save_at=SaveAt(analysis.output_dt),
         directory=out,
         provenance={"case": case.name, "seed": case.seed, **top.provenance},
         progress=None if progress is None else lambda now: progress(now, analysis.duration),

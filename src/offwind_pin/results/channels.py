@@ -1,61 +1,27 @@
 """The channels of every time history, in one table.
 
 Integrators return the records that it names, the dataset and the NetCDF file are made from its
-rows, and the page on case files prints it. Loads declare further channels of their own
-(:class:`Channel`).
+rows, and the page on case files prints it. A run has the channels whose dimensions it has. Loads
+declare further channels of their own.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
-from types import EllipsisType
 from typing import Any, Literal
 
 import numpy as np
 
 from offwind_pin.base.channels import Channel
-from offwind_pin.base.definition import Array
 
 SECTION = "what the part above the section exerts on the part below"
-
-
-@dataclass(frozen=True, repr=False)
-class RecordedChannel(Channel):
-    """A channel of the records of a run; runs have it in which all its dimensions exist.
-
-    Attributes
-    ----------
-    record : str, array (t, ...) that it is taken from
-    at : str, the height that it is about, where it is not all of them
-    part : index of the array, after that of the height
-    """
-
-    record: str = ""
-    at: Literal["", "mudline", "tower_top"] = ""
-    part: EllipsisType | tuple[Any, ...] = ...
-
-    def values(self, records: Mapping[str, Array], index: Mapping[str, Any]) -> Array:
-        """The numbers (t, ...).
-
-        Parameters
-        ----------
-        records : arrays by name
-        index : entries that are kept, by dimension, and those of the heights that ``at`` names
-        """
-        found = records[self.record]
-        for name in (self.at, *self.dims):
-            if name in index:
-                found = found[:, index[name]]
-        return found[self.part]
 
 
 _FORCE, _MOMENT = np.s_[..., :3], np.s_[..., 3:]
 _ALONG, _TOP = ("height", "direction"), ("direction",)
 
 
-def _along(name: str, units: str, long_name: str, record: str, part: Any = ...) -> RecordedChannel:
-    return RecordedChannel(name, _ALONG, units, long_name, "float32", record=record, part=part)
+def _along(name: str, units: str, long_name: str, record: str, part: Any = ...) -> Channel:
+    return Channel(name, _ALONG, units, long_name, "float32", record=record, part=part)
 
 
 def _scalar(
@@ -65,14 +31,14 @@ def _scalar(
     record: str,
     *dims: str,
     dtype: Literal["float64", "int32"] = "float64",
-) -> RecordedChannel:
-    return RecordedChannel(name, dims, units, long_name, dtype, frame="", record=record)
+) -> Channel:
+    return Channel(name, dims, units, long_name, dtype, frame="", record=record)
 
 
 def _at_mudline(
     name: str, units: str, long_name: str, kind: Literal["F", "M"], part: Any
-) -> RecordedChannel:
-    return RecordedChannel(
+) -> Channel:
+    return Channel(
         name,
         _TOP,
         units,
@@ -95,7 +61,7 @@ CHANNELS = (
         "section_load",
         _MOMENT,
     ),
-    RecordedChannel(
+    Channel(
         "tower_top_displacement",
         _TOP,
         "m",
@@ -106,7 +72,7 @@ CHANNELS = (
     ),
     _at_mudline("mudline_moment", "N m", f"moment at the mudline: {SECTION}", "M", _MOMENT),
     _at_mudline("mudline_force", "N", f"force at the mudline: {SECTION}", "F", _FORCE),
-    RecordedChannel(
+    Channel(
         "segment_imbalance",
         ("segment", "component"),
         "N for F, N m for M",
@@ -115,7 +81,7 @@ CHANNELS = (
         "float32",
         record="imbalance",
     ),
-    RecordedChannel(
+    Channel(
         "soil_force",
         ("soil_node", "direction"),
         "N",
@@ -123,7 +89,7 @@ CHANNELS = (
         "float32",
         record="soil_force",
     ),
-    RecordedChannel(
+    Channel(
         "tuned_mass_displacement",
         ("damper", "across"),
         "m",
@@ -133,7 +99,7 @@ CHANNELS = (
         record="stroke",
     ),
     *(
-        RecordedChannel(
+        Channel(
             f"ground_{name}",
             ("level", "direction"),
             units,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from importlib import metadata
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from offwind_pin.base.channels import FRAME, Channel
+from offwind_pin.base.errors import InputError
 from offwind_pin.base.whole_files import append_netcdf
 from offwind_pin.results.blocks import Block, BlockStore
 from offwind_pin.results.channels import CHANNELS
@@ -23,6 +25,9 @@ Array = NDArray[np.float64]
 HOLDERS = ("kinetic", "gravitational", "elastic", "foundation")
 SINKS = ("joint_dampers", "foundation")
 """What holds and what takes up energy besides the loads."""
+
+_ENERGIES = ("stored", "dissipated", "worked")
+"""Arrays that the energy balance is made of."""
 
 COORDINATES = {
     "time": {"long_name": "simulated time", "units": "s"},
@@ -57,7 +62,8 @@ class HistoryWriter:
     levels : (D,) heights in m at which the ground's motion is recorded; none without an earthquake
     dampers : names of the tuned mass dampers
     soil : (n,) heights in m of the nodes of the soil; none where no soil acts along the pile
-    load_channels : channels of the loads, whose records have their names
+    load_channels : channels of the loads
+    only : names of the channels that are written, None for all
     """
 
     mudline: float
@@ -71,6 +77,30 @@ class HistoryWriter:
     dampers: Sequence[str] = ()
     soil: Array = field(default_factory=lambda: np.zeros(0))
     load_channels: Sequence[Channel] = ()
+    only: Sequence[str] | None = None
+
+    @cached_property
+    def channels(self) -> tuple[Channel, ...]:
+        """What is written.
+
+        Raises
+        ------
+        InputError : a channel was asked for that the run does not have
+        """
+        dimensions = self._coordinates.keys()
+        there = [channel for channel in CHANNELS if dimensions >= set(channel.dims)]
+        found = {channel.name: channel for channel in (*there, *self.load_channels)}
+        for name in self.only or ():
+            if name not in found:
+                raise InputError("save_at, channels", name, ", ".join(found), "Choose from them.")
+        return tuple(
+            channel for name, channel in found.items() if self.only is None or name in self.only
+        )
+
+    @cached_property
+    def records(self) -> set[str]:
+        """Names of the arrays of a block that they are made of."""
+        return {"time", *_ENERGIES, *(channel.record or channel.name for channel in self.channels)}
 
     def write(self, store: BlockStore, status: str, directory: Path | str | None) -> xr.Dataset:
         """Dataset of all blocks; with a directory it is in ``results.nc`` there.
@@ -86,38 +116,22 @@ class HistoryWriter:
         path = Path(directory) / "results.nc"
         for left_by_a_kill in path.parent.glob(".results.*.nc"):
             left_by_a_kill.unlink()
-        dtypes = {channel.name: channel.dtype for channel in (*CHANNELS, *self.load_channels)}
+        dtypes = {channel.name: channel.dtype for channel in self.channels}
         append_netcdf(path, (self._dataset(block, status, start) for block in store), dtypes)
         return xr.open_dataset(path, engine="netcdf4")
 
     def _dataset(self, block: Block, status: str, start: float) -> xr.Dataset:
         """Channels of one block; start is the energy stored at the beginning in J."""
-        stored, dissipated, worked = (
-            block[name].sum(axis=1) for name in ("stored", "dissipated", "worked")
-        )
+        stored, dissipated, worked = (block[name].sum(axis=1) for name in _ENERGIES)
         records = {**block, "balance": stored - start + dissipated - worked}
-        index = {
-            "tower_top": -1,
-            "mudline": int(np.argmin(np.abs(self.height - self.mudline))),
-            "holder": [True] * len(HOLDERS) + list(self.stores),
-            "source": [len(self.levels) > 0, False, *~self.stores],
-        }
-        coordinates = {
-            name: (name, values, COORDINATES[name])
-            for name, values in self._coordinates(index).items()
-        }
         channels = {
             channel.name: (
                 ("time", *channel.dims),
-                channel.values(records, index),
+                channel.values(records, self._index),
                 channel.attributes,
             )
-            for channel in CHANNELS
-            if coordinates.keys() >= set(channel.dims)
+            for channel in self.channels
         }
-        for channel in self.load_channels:
-            values = records[channel.name]
-            channels[channel.name] = (("time", *channel.dims), values, channel.attributes)
         attributes = {
             "title": TITLES["histories"],
             **versions(),
@@ -126,28 +140,39 @@ class HistoryWriter:
             **self.attributes,
             "status": status,
         }
-        time = ("time", block["time"], COORDINATES["time"])
-        return xr.Dataset({**channels, **self.constants}, {"time": time, **coordinates}, attributes)
+        coordinates = {"time": ("time", block["time"], COORDINATES["time"]), **self._coordinates}
+        return xr.Dataset({**channels, **self.constants}, coordinates, attributes)
 
-    def _coordinates(self, index: Mapping[str, Any]) -> dict[str, Any]:
-        """Values of the coordinates of this run besides time."""
+    @cached_property
+    def _index(self) -> dict[str, Any]:
+        """Entries of records that channels keep, see :meth:`Channel.values`."""
+        return {
+            "tower_top": -1,
+            "mudline": int(np.argmin(np.abs(self.height - self.mudline))),
+            "holder": [True] * len(HOLDERS) + list(self.stores),
+            "source": [len(self.levels) > 0, False, *~self.stores],
+        }
+
+    @cached_property
+    def _coordinates(self) -> dict[str, Any]:
+        """Coordinates of this run besides time."""
         names = np.array([*HOLDERS, *self.loads])
-        found = {
+        found: dict[str, Any] = {
             "height": self.height,
             "direction": ["x", "y", "z"],
             "component": ["Fx", "Fy", "Fz", "Mx", "My", "Mz"],
             "segment": [f"{low:g} to {high:g} m" for low, high in self.segments],
-            "holder": names[index["holder"]].tolist(),
+            "holder": names[self._index["holder"]].tolist(),
             "sink": [*SINKS, *self.loads],
-            "source": np.array(["ground", "", *self.loads])[index["source"]].tolist(),
+            "source": np.array(["ground", "", *self.loads])[self._index["source"]].tolist(),
         }
         if len(self.levels):
             found["level"] = self.levels
         if len(self.soil):
             found["soil_node"] = self.soil
         if self.dampers:
-            found |= {"damper": list(self.dampers), "across": ["x", "y"]}
-        return found
+            found |= {"damper": self.dampers, "across": ["x", "y"]}
+        return {name: (name, values, COORDINATES[name]) for name, values in found.items()}
 
 
 def versions() -> dict[str, str]:

@@ -152,7 +152,7 @@ def test_the_base_bears_the_wind(system: ow.System) -> None:
 
 def test_a_steady_wind_in_time_stays_at_its_static_state(system: ow.System) -> None:
     load = tower_drag(system, CALM)
-    data = ow.simulate(system, 4.0, 0.02, [load], output_dt=0.5)
+    data = ow.simulate(system, 4.0, 0.02, [load], save_at=ow.SaveAt(0.5))
     static = ow.static(system, loads=[load])
     top = data["displacement"].sel(direction="x").isel(height=-1).to_numpy()
     assert top == pytest.approx(np.full(len(top), static.tower_top_displacement[0]), rel=1e-6)

@@ -37,8 +37,7 @@ def runs(oc6: ow.Turbine) -> list[xr.Dataset]:
             dt,
             [wind],
             ramp=8.0,
-            output_dt=0.2,
-            segments=[(-30.0, -9.0), (-9.0, 40.0)],
+            save_at=ow.SaveAt(0.2, segments=[(-30.0, -9.0), (-9.0, 40.0)]),
         )
         for dt in STEPS.tolist()
     ]
