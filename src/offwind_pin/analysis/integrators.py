@@ -69,13 +69,14 @@ Records = dict[str, Array]
 
 
 class Integrator(ABC):
-    """Takes a system from one instant to the next ones: base class of all.
+    """Takes a system from one instant to the next ones: base class of all methods in time.
 
     A user's own method is most easily a :class:`OneStepMethod`.
 
     Attributes
     ----------
-    engines : that evaluate the equations of motion for it, the default first
+    engines : tuple of str
+        Engines that evaluate the equations of motion for it, the default first.
     """
 
     engines: ClassVar[tuple[Engine, ...]] = ("compiled",)
@@ -87,9 +88,20 @@ class Integrator(ABC):
 
     @abstractmethod
     def begin(self, chain: CompiledChain, q: Array, interval: float) -> MotionState:
-        """State at time 0, at rest at joint displacements q; interval between outputs in s.
+        """State at time 0 at rest; the memory of soil and foundation is the chain's.
 
-        What soil and foundation keep of their past is the chain's.
+        Parameters
+        ----------
+        chain : CompiledChain
+            The system under loads.
+        q : (nv,) array, m and rad
+            Joint displacements.
+        interval : float, s
+            Between two outputs.
+
+        Returns
+        -------
+        MotionState
         """
 
     @abstractmethod
@@ -98,9 +110,25 @@ class Integrator(ABC):
     ) -> tuple[MotionState, Records]:
         """State at the last of the instants, and records at each of them.
 
+        Parameters
+        ----------
+        chain : CompiledChain
+            The system under loads.
+        sections : tuple of Cuts and Segments
+            What is recorded.
+        state : MotionState
+            From which it starts.
+        times : (t,) array, s
+            Instants of the outputs.
+
+        Returns
+        -------
+        tuple of MotionState and dict of str to array
+
         Raises
         ------
-        StepFailed : with what the policy allows, a step did not converge
+        StepFailed
+            With what the policy allows, a step did not converge.
         """
 
     @abstractmethod
@@ -128,21 +156,26 @@ class OneStepMethod(Integrator):
 
         Parameters
         ----------
-        chain : the equations of motion: ``residual(time_inputs, q, v, a)`` gives the generalised
-            forces out of balance (nv,) in N and N m; ``factorise(time_inputs, q, v, a, dv_dq,
-            da_dq)`` makes the matrix dr/dq + dv_dq dr/dv + da_dq dr/da, and ``correction(r)``
-            solves with it
-        time_inputs : (w,) of the end of the step, whose time in s comes first
+        chain : CompiledChain
+            The equations of motion. ``residual(time_inputs, q, v, a)`` gives the generalised forces
+            out of balance, (nv,) in N and N m; ``factorise(time_inputs, q, v, a, dv_dq, da_dq)``
+            makes the matrix dr/dq + dv_dq dr/dv + da_dq dr/da; ``correction(r)`` solves with it.
+        time_inputs : (w,) array
+            Of the end of the step; its time in s comes first.
         step : float, s
-        q, v, a : (nv,) joint displacements, velocities and accelerations at its beginning
+            Time step.
+        q, v, a : (nv,) array
+            Joint displacements, velocities and accelerations at the beginning of the step.
 
         Returns
         -------
-        q, v and a at the end of the step, and the number of Newton iterations
+        tuple of array, array, array and int
+            q, v and a at the end of the step, and the number of Newton iterations.
 
         Raises
         ------
-        StepFailed : it did not converge
+        StepFailed
+            It did not converge.
         """
 
     def begin(self, chain: CompiledChain, q: Array, interval: float) -> MotionState:
@@ -184,9 +217,12 @@ class GeneralizedAlpha(Integrator):
 
     Attributes
     ----------
-    policy : of the steps
-    spectral_radius : numerical damping at infinite frequency, 1 for none
-    relative_tolerance, increment_tolerance : see :class:`Method`
+    policy : StepPolicy
+        Of the steps.
+    spectral_radius : float
+        Numerical damping at infinite frequency, 1 for none.
+    relative_tolerance, increment_tolerance : float
+        See :class:`Method`.
     """
 
     policy: StepPolicy
@@ -300,8 +336,10 @@ class SciPyIVP(Integrator):
 
     Attributes
     ----------
-    method : ``"Radau"``, ``"BDF"`` or ``"LSODA"``
-    relative_tolerance, absolute_tolerance : of displacements in m and rad and of their rates
+    method : {"Radau", "BDF", "LSODA"}
+        ``"Radau"``, ``"BDF"`` or ``"LSODA"``.
+    relative_tolerance, absolute_tolerance : float, m and rad
+        Of displacements and of their rates.
     """
 
     method: Literal["Radau", "BDF", "LSODA"] = "Radau"

@@ -76,43 +76,58 @@ def simulate(
 
     Parameters
     ----------
-    duration : simulated time in s, the ramp included
-    dt : time step in s of generalised-alpha, by default 0.02; None with an ``integrator``, which
-        has its own steps
-    loads : what acts: at the yaw bearing a constant load (6,) Fx, Fy, Fz, Mx, My, Mz in N and N m
-        or a history, whose mean is taken over the time after the ramp; or point loads of one's own
-    ramp : seconds over which the fluctuations rise
-    start : ``"static"``, or ``"undeformed"``: gravity and mean loads are applied at t = 0
-    ground_motion : an earthquake, at its own times whatever the ramp; displacements and
-        accelerations are recorded as they are absolutely, not relative to the ground
-    integrator : the method in time with its step policy, by default
-        ``GeneralizedAlpha(FixedStep(dt))``
-    engine : what evaluates the equations of motion: ``"compiled"``, the default, or
-        ``"pinocchio"``, the only one for :class:`SciPyIVP`. What is recorded is evaluated from
-        joint displacements, velocities and accelerations by compiled code with either
-    save_at : what is recorded and when, by default everything at every step
-    directory : where the results are kept as they come, ``results.nc`` in the end, so that memory
-        does not grow with the duration; the same call after a stop goes on where it left off, to
-        bitwise the same results
-    provenance : further attributes for the dataset
-    progress : called with the simulated time as it grows
+    duration : float, s
+        Simulated time, the ramp included.
+    dt : float, s, optional
+        Time step of generalised-alpha, by default 0.02; None with an ``integrator``, which has its
+        own steps.
+    loads : sequence of PointLoad, LoadHistory or array
+        Applied loads: at the yaw bearing a constant load (6,) Fx, Fy, Fz, Mx, My, Mz in N and N m,
+        or a history, whose mean is taken over the time after the ramp; or point loads of your own.
+    ramp : float
+        Seconds over which the fluctuations rise.
+    start : {"static", "undeformed"}
+        ``"static"``, or ``"undeformed"``: gravity and mean loads are applied at t = 0.
+    ground_motion : GroundMotion, optional
+        An earthquake, at its own times whatever the ramp; displacements and accelerations are
+        recorded as they are absolutely, not relative to the ground.
+    integrator : Integrator, optional
+        Method in time with its step policy, by default ``GeneralizedAlpha(FixedStep(dt))``.
+    engine : {"compiled", "pinocchio"}, optional
+        What evaluates the equations of motion: ``"compiled"``, the default, or ``"pinocchio"``, the
+        only one for :class:`SciPyIVP`. What is recorded is evaluated from joint displacements,
+        velocities and accelerations by compiled code with either.
+    save_at : SaveAt, optional
+        What is recorded and when, by default everything at every step.
+    directory : Path or str, optional
+        Where the results are kept as they come, ``results.nc`` in the end, so that memory does not
+        grow with the duration; the same call after a stop goes on where it left off, to bitwise the
+        same results.
+    provenance : dict of str to object, optional
+        Further attributes for the dataset.
+    progress : callable, optional
+        Called with the simulated time as it grows.
 
     Returns
     -------
-    Dataset with ``displacement``, ``acceleration``, ``section_force`` and ``section_moment`` over
-    time and height, the mudline and tower-top channels, the applied load, ``soil_force`` at the
-    nodes of the soil, the waves, the ground's motion in an earthquake, the displacements of tuned
-    mass dampers, the ledger of energies, the solver's own account, and what a picture needs
-    (:mod:`offwind_pin.analysis.drawing_data`); see
-    ``attrs`` for versions, seeds and settings. With a ``directory`` it reads from the file there,
-    channel by channel as they are asked for.
+    Dataset
+        With ``displacement``, ``acceleration``, ``section_force`` and ``section_moment``
+        over time and height, the mudline and tower-top channels, the applied load, ``soil_force``
+        at the nodes of the soil, the waves, the ground's motion in an earthquake, the displacements
+        of tuned mass dampers, the ledger of energies, the solver's own account, and what a picture
+        needs (:mod:`offwind_pin.analysis.drawing_data`); see ``attrs`` for versions, seeds and
+        settings. With a ``directory`` it reads from the file there, channel by channel as they are
+        asked for.
 
     Raises
     ------
-    InputError : an argument that cannot be used, a history that is too short, waves that would
-        repeat, or a time step too long for them
-    SolverError : a step did not converge; ``results`` holds the dataset so far
-    InterruptedSimulation : the user stopped it; ``results`` holds the dataset so far
+    InputError
+        An argument that cannot be used, a history that is too short, waves that would repeat, or a
+        time step too long for them.
+    SolverError
+        A step did not converge; ``results`` holds the dataset so far.
+    InterruptedSimulation
+        The user stopped it; ``results`` holds the dataset so far.
     """
     save_at = SaveAt() if save_at is None else save_at
     _check_settings(duration, dt, ramp, integrator)
@@ -336,7 +351,8 @@ def _folder_store(
 
     Raises
     ------
-    InputError : blocks of another run, or of a run that cannot be identified
+    InputError
+        Blocks of another run, or of a run that cannot be identified.
     """
     unknown = None
     try:
@@ -354,7 +370,8 @@ def _fingerprint(chain: CompiledChain, sections: Sections, channels: Sequence[st
 
     Raises
     ------
-    InputError : a load or root restraint whose content cannot be hashed
+    InputError
+        A load or root restraint whose content cannot be hashed.
     """
     root = chain.system.foundation.root
     parts = {f"load {load.name!r}": load.fingerprint for load in chain.acting}
@@ -389,7 +406,8 @@ def _load_channels(loads: Sequence[PointLoad]) -> list[Channel]:
 
     Raises
     ------
-    InputError : two different channels of one name
+    InputError
+        Two different channels of one name.
     """
     found = {channel.name: channel for channel in (TOWER_TOP_LOAD, WAVE_ELEVATION)}
     known = {channel.name: channel for channel in CHANNELS}

@@ -21,17 +21,25 @@ class Channel:
 
     Attributes
     ----------
-    name : str, in the dataset; channels of one name given by several loads are summed
-    dims : tuple of str, dimensions after ``time``: none, ``("component",)`` for Fx to Mz, or
-        ``("direction",)`` for x, y, z
-    units : str
-    long_name : str
-    dtype : str, of the numbers in ``results.nc``; in memory they have double precision
-    frame : str, of its directions and signs; empty for a scalar
-    openfast_alias : str, channels of OpenFAST that give the same
-    record : str, array (t, ...) that it is taken from; empty for one of its own name
-    at : str, the height that it is about, where the array is over all recorded heights
-    part : index of the array, after that of the height
+    name : str
+        In the dataset; channels of one name given by several loads are summed.
+    dims : tuple of str
+        Dimensions after ``time``: none, ``("component",)`` for Fx to Mz, or ``("direction",)`` for
+        x, y, z.
+    units, long_name : str
+        Attributes of the channel.
+    dtype : {"float64", "float32", "int32"}
+        Of the numbers in ``results.nc``; in memory they have double precision.
+    frame : str
+        Of its directions and signs; empty for a scalar.
+    openfast_alias : str
+        Channels of OpenFAST that give the same.
+    record : str
+        Array (t, ...) that it is taken from; empty for one of its own name.
+    at : {"", "mudline", "tower_top"}
+        The height that it is about, where the array is over all recorded heights.
+    part : index
+        Of the array, after that of the height.
     """
 
     name: str
@@ -63,8 +71,10 @@ class Channel:
 
         Parameters
         ----------
-        records : arrays by name
-        index : entries that are kept, by dimension, and those of the heights that ``at`` names
+        records : mapping of str to array
+            Arrays by name.
+        index : mapping of str to index
+            Entries that are kept, by dimension, and those of the heights that ``at`` names.
         """
         found = records[self.record or self.name]
         for name in (self.at, *self.dims):

@@ -52,18 +52,30 @@ class HistoryWriter:
 
     Attributes
     ----------
-    mudline : height in m
-    height : (m,) heights of the records in m
-    segments : pairs of heights in m between which equilibrium is checked
-    loads : names of the loads
-    stores : (L,) whether each stores energy rather than works
-    attributes : of the dataset
-    constants : what does not change with time, by name: dimension, values, attributes
-    levels : (D,) heights in m at which the ground's motion is recorded; none without an earthquake
-    dampers : names of the tuned mass dampers
-    soil : (n,) heights in m of the nodes of the soil; none where no soil acts along the pile
-    load_channels : channels of the loads
-    only : names of the channels that are written, None for all
+    mudline : float, m
+        Height.
+    height : (m,) array, m
+        Heights of the records.
+    segments : sequence of (float, float), m
+        Pairs of heights between which equilibrium is checked.
+    loads : sequence of str
+        Names of the loads.
+    stores : (L,) bool array
+        Whether each stores energy rather than works.
+    attributes : dict of str to object
+        Of the dataset.
+    constants : mapping of str to (str, array, dict of str to str)
+        What does not change with time, by name: dimension, values, attributes.
+    levels : (D,) array, m
+        Heights at which the ground's motion is recorded; none without an earthquake.
+    dampers : sequence of str
+        Names of the tuned mass dampers.
+    soil : (n,) array, m
+        Heights of the nodes of the soil; none where no soil acts along the pile.
+    load_channels : sequence of Channel
+        Channels of the loads.
+    only : sequence of str, optional
+        Names of the channels that are written; all unless given.
     """
 
     mudline: float
@@ -85,7 +97,8 @@ class HistoryWriter:
 
         Raises
         ------
-        InputError : a channel was asked for that the run does not have
+        InputError
+            A channel was asked for that the run does not have.
         """
         dimensions = self._coordinates.keys()
         there = [channel for channel in CHANNELS if dimensions >= set(channel.dims)]

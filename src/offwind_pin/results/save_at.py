@@ -12,14 +12,16 @@ class SaveAt(Definition, kw_only=False):
 
     Attributes
     ----------
-    output_dt : float or None, s, interval of the output, a multiple of the time step; None for
-        every step
-    heights : tuple of float or None, m, where motion and section loads are recorded; None for the
-        element boundaries. Mudline and yaw bearing are added
-    segments : tuple of pairs of float or None, m, lower and upper ends of the parts whose
-        equilibrium is recorded as ``segment_imbalance``; None for the whole structure and its parts
-        above and below the mudline
-    channels : tuple of str or None, names of the channels that are kept; None for all
+    output_dt : float, s, optional
+        Interval of the output, a multiple of the time step; by default every step.
+    heights : tuple of float, m, optional
+        Where motion and section loads are recorded, by default the element boundaries; mudline and
+        yaw bearing are added.
+    segments : tuple of (float, float), m, optional
+        Lower and upper ends of the parts whose equilibrium is recorded as ``segment_imbalance``, by
+        default the whole structure and its parts above and below the mudline.
+    channels : tuple of str, optional
+        Names of the channels that are kept; all unless given.
     """
 
     output_dt: Positive | None = None
