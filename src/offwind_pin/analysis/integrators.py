@@ -45,10 +45,23 @@ class MotionState(NamedTuple):
 
 
 class StepFailed(Exception):
-    """A step that did not converge: why, when, and its last finite residual (nv,).
+    """A step did not converge.
 
-    number : of the step, counted in the steps that the policy begins with; 0 where it is not known
-    advanced : state and records of the intervals before it in the same call, or None
+    Parameters
+    ----------
+    reason : str
+        In words.
+    time : float, s
+        Of the end of the step.
+    residual : (nv,) array, N and N m
+        The last finite one.
+    number : int
+        Of the step, counted in the steps that the policy begins with; 0 where it is not known.
+
+    Attributes
+    ----------
+    advanced : tuple of MotionState and dict of str to array, optional
+        State and records of the intervals before it in the same call.
     """
 
     advanced: tuple[MotionState, Records] | None = None
