@@ -301,7 +301,7 @@ def test_foundations_take_dampers(undamped: ow.Turbine) -> None:
 
 def test_a_stopped_run_goes_on(damped: ow.System, tmp_path: Path) -> None:
     """To bitwise the same results, the dampers' displacements among them."""
-    keys = {"output_dt": 0.5, "duration": 50.0, "dt": 0.05}
+    keys = {"save_at": ow.SaveAt(0.5, heights=[20.0]), "duration": 50.0, "dt": 0.05}
     whole = let_go(damped, **keys, directory=tmp_path / "whole")  # type: ignore[arg-type]
 
     def stop(now: float) -> None:

@@ -125,7 +125,7 @@ def test_no_cache_outlives_a_block(system: ow.System, tmp_path: Path) -> None:
     settings: dict[str, object] = {
         "duration": 18.0,
         "ramp": 1.0,
-        "output_dt": 0.3,
+        "save_at": SAVED.replace(output_dt=0.3),
         "integrator": ow.GeneralizedAlpha(ow.FixedStep(0.3 / 128)),
     }
     run(system, "fixed", tmp_path / "whole", **settings).close()
@@ -289,7 +289,7 @@ def test_own_loads_and_restraints_resume(undamped: ow.Turbine, tmp_path: Path) -
     root = HardeningRestraint(stiffness, 0.02 * stiffness)
     system = replace(bare, foundation=replace(bare.foundation, root=root))
     load = FromHistory(system.chain.top, "own", history(), history().load[0])
-    settings: dict[str, object] = {"loads": [load], "heights": [0.0]}
+    settings: dict[str, object] = {"loads": [load], "save_at": SAVED.replace(heights=[0.0])}
     run(system, "fixed", tmp_path / "whole", **settings).close()
     interrupted(system, tmp_path / "stopped", **settings)
     run(system, "fixed", tmp_path / "stopped", **settings).close()

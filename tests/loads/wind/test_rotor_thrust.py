@@ -335,7 +335,7 @@ def test_a_stopped_run_goes_on_to_the_same_results(
     """The lags' memory is part of the state: resumed after 20 s, the run ends bitwise the same."""
     wind = ow.RotorWind(9.0, 0.14, seed=3).generate(disc, repeat_period=40.0)
     thrust = RotorThrust(disc, wind, inflow_lag=True)
-    settings = {"ramp": 5.0, "output_dt": 0.1, "heights": [system.chain.top]}
+    settings = {"ramp": 5.0, "save_at": ow.SaveAt(0.1, heights=[system.chain.top])}
 
     def stop(time: float) -> None:
         if time < 21:
