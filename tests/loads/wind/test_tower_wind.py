@@ -8,7 +8,6 @@ from helpers.hydrodynamics import upright
 from scipy.integrate import quad
 
 import offwind_pin as ow
-from offwind_pin.analysis.tower_drag import tower_drag
 from offwind_pin.base.definition import Array
 from offwind_pin.loads.sea.forces.morison import MorisonForce
 from offwind_pin.loads.wind.profiles import (
@@ -18,7 +17,7 @@ from offwind_pin.loads.wind.profiles import (
     Profile,
     WindSeries,
 )
-from offwind_pin.loads.wind.tower_drag import TowerDrag, TowerWind
+from offwind_pin.loads.wind.tower_drag import TowerDrag, TowerWind, tower_drag
 from offwind_pin.structure.section import outer_diameter
 
 CALM = TowerWind(12.0, 119.0, PowerLaw(0.14), 0.65)

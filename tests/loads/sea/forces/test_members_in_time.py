@@ -6,10 +6,9 @@ import xarray as xr
 from helpers.numerics import fitted_order
 
 import offwind_pin as ow
-from offwind_pin.analysis.tower_drag import tower_drag
 from offwind_pin.definitions.hydrodynamics import FloodedPile, MarineGrowth
 from offwind_pin.loads.wind.profiles import ExtremeOperatingGust, PowerLaw
-from offwind_pin.loads.wind.tower_drag import TowerWind
+from offwind_pin.loads.wind.tower_drag import TowerWind, tower_drag
 
 STEPS = np.array([0.04, 0.02, 0.01])
 
