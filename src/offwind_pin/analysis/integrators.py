@@ -1,10 +1,12 @@
-"""Time integrators: from a state and output times to records."""
+"""Integrators of a system's motion behind one interface: a state and instants in, records out."""
 
 from __future__ import annotations
 
 import logging
+from abc import ABC, abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, ClassVar, Literal, NamedTuple, Protocol
+from typing import Any, ClassVar, Literal, NamedTuple
 
 import numpy as np
 
@@ -15,6 +17,7 @@ from offwind_pin.base.errors import InputError
 from offwind_pin.definitions.engine import Engine
 from offwind_pin.dynamics.compiled.chain import CompiledChain
 from offwind_pin.dynamics.compiled.recorder import Cuts, Recorder, Segments
+from offwind_pin.results.channels import CHANNELS
 from offwind_pin.solvers.generalized_alpha import (
     CONVERGED,
     REASONS,
@@ -42,15 +45,28 @@ class MotionState(NamedTuple):
 
 
 class StepFailed(Exception):
-    """A step that did not converge: why, when, and its last finite residual (nv,).
+    """A step did not converge.
 
-    number : index of the step, in steps of the policy's first size
-    advanced : state and records of the intervals before it in the same call, or None
+    Parameters
+    ----------
+    reason : str
+        In words.
+    time : float, s
+        Of the end of the step.
+    residual : (nv,) array, N and N m
+        The last finite one.
+    number : int
+        Of the step, counted in the steps that the policy begins with; 0 where it is not known.
+
+    Attributes
+    ----------
+    advanced : tuple of MotionState and dict of str to array, optional
+        State and records of the intervals before it in the same call.
     """
 
     advanced: tuple[MotionState, Records] | None = None
 
-    def __init__(self, reason: str, time: float, residual: Array, number: int) -> None:
+    def __init__(self, reason: str, time: float, residual: Array, number: int = 0) -> None:
         self.reason = reason
         self.time = time
         self.residual = residual
@@ -65,37 +81,43 @@ Records = dict[str, Array]
 """Channels by name, over records first; see :class:`Recorder`."""
 
 
-class Integrator(Protocol):
-    """Advances a system from one output to the next ones.
+class Integrator(ABC):
+    """Takes a system from one instant to the next ones: base class of all methods in time.
+
+    A user's own method is most easily a :class:`OneStepMethod`.
 
     Attributes
     ----------
     engines : tuple of str
-        Engines that it supports, the default first.
+        Engines that evaluate the equations of motion for it, the default first.
     """
 
-    engines: ClassVar[tuple[Engine, ...]]
+    engines: ClassVar[tuple[Engine, ...]] = ("compiled",)
 
+    @property
+    def time_step(self) -> float | None:
+        """Time step in s where all steps have one size, else None."""
+        return None
+
+    @abstractmethod
     def begin(self, chain: CompiledChain, q: Array, interval: float) -> MotionState:
-        """State at time 0, at rest.
-
-        Memory of soil and foundation is that of the chain.
+        """State at time 0 at rest; the memory of soil and foundation is the chain's.
 
         Parameters
         ----------
         chain : CompiledChain
-            Compiled equations of motion.
+            The system under loads.
         q : (nv,) array, m and rad
-            Joint displacements at rest.
+            Joint displacements.
         interval : float, s
-            Output interval.
+            Between two outputs.
 
         Returns
         -------
         MotionState
-            State at the start.
         """
 
+    @abstractmethod
     def advance(
         self, chain: CompiledChain, sections: Sections, state: MotionState, times: Array
     ) -> tuple[MotionState, Records]:
@@ -119,12 +141,28 @@ class Integrator(Protocol):
         records : Records
             Records at all outputs.
 
+        Parameters
+        ----------
+        chain : CompiledChain
+            The system under loads.
+        sections : tuple of Cuts and Segments
+            What is recorded.
+        state : MotionState
+            From which it starts.
+        times : (t,) array, s
+            Instants of the outputs.
+
+        Returns
+        -------
+        tuple of MotionState and dict of str to array
+
         Raises
         ------
         StepFailed
             A step did not converge with any step that the policy allows.
         """
 
+    @abstractmethod
     def describe(self) -> dict[str, Any]:
         """Settings as attributes of the results.
 
@@ -132,6 +170,73 @@ class Integrator(Protocol):
         -------
         dict of str to object
         """
+
+
+class OneStepMethod(Integrator):
+    """A method with steps of one size that needs q, v and a at the beginning of a step alone.
+
+    Base class of a user's own integrators, which must have :attr:`time_step`, :meth:`step` and
+    :meth:`describe`.
+    """
+
+    @property
+    @abstractmethod
+    def time_step(self) -> float:
+        """Time step in s."""
+
+    @abstractmethod
+    def step(
+        self, chain: CompiledChain, time_inputs: Array, step: float, q: Array, v: Array, a: Array
+    ) -> tuple[Array, Array, Array, int]:
+        """Take one step.
+
+        Parameters
+        ----------
+        chain : CompiledChain
+            The equations of motion. ``residual(time_inputs, q, v, a)`` gives the generalised forces
+            out of balance, (nv,) in N and N m; ``factorise(time_inputs, q, v, a, dv_dq, da_dq)``
+            makes the matrix dr/dq + dv_dq dr/dv + da_dq dr/da; ``correction(r)`` solves with it.
+        time_inputs : (w,) array
+            Of the end of the step; its time in s comes first.
+        step : float, s
+            Time step.
+        q, v, a : (nv,) array
+            Joint displacements, velocities and accelerations at the beginning of the step.
+
+        Returns
+        -------
+        tuple of array, array, array and int
+            q, v and a at the end of the step, and the number of Newton iterations.
+
+        Raises
+        ------
+        StepFailed
+            It did not converge.
+        """
+
+    def begin(self, chain: CompiledChain, q: Array, interval: float) -> MotionState:
+        return _at_start(chain, chain.start(q), FixedStep(self.time_step).first(interval))
+
+    def advance(
+        self, chain: CompiledChain, sections: Sections, state: MotionState, times: Array
+    ) -> tuple[MotionState, Records]:
+        scale = load_scale(chain.system)
+
+        def interval_to(state: MotionState, time: float) -> tuple[MotionState, Records]:
+            step = (time - state.time) / state.steps
+            recorder = _resumed_recorder(chain, sections, state, state.steps, 1)
+            chain.memory = state.memory
+            q, v, a = state.vectors[:3]
+            instants = np.linspace(state.time, time, state.steps + 1)[1:]
+            for row in chain.time_inputs(instants):
+                q, v, a, iterations = self.step(chain, row, step, q, v, a)
+                chain.note(recorder, row, q, v, a, scale, iterations)
+            vectors = np.array([q, v, a, *state.vectors[3:]])
+            sums = (recorder.energy, recorder.power)
+            after = MotionState(time, vectors, chain.memory, *sums, state.steps)
+            return after, _channels(recorder, step)
+
+        return _by_intervals(interval_to, state, times)
 
 
 class _Advanced(NamedTuple):
@@ -169,6 +274,10 @@ class GeneralizedAlpha(Integrator):
         if not 0 <= self.spectral_radius <= 1:
             raise InputError("spectral_radius", self.spectral_radius, "0 to 1", "Correct it.")
 
+    @property
+    def time_step(self) -> float | None:
+        return self.policy.dt if isinstance(self.policy, FixedStep) else None
+
     def begin(self, chain: CompiledChain, q: Array, interval: float) -> MotionState:
         return _at_start(chain, chain.start(q), self.policy.first(interval))
 
@@ -180,15 +289,11 @@ class GeneralizedAlpha(Integrator):
             attempt = self._try(chain, sections, state, times)
             if isinstance(attempt, _Advanced):
                 return attempt.state, attempt.records
-        pieces: list[Records] = []
-        for time in times:
-            try:
-                state, records = self._advance_interval(chain, sections, state, time, interval)
-            except StepFailed as failure:
-                failure.advanced = (state, _joined(pieces)) if pieces else None
-                raise
-            pieces.append(records)
-        return state, _joined(pieces)
+        return _by_intervals(
+            lambda state, time: self._advance_interval(chain, sections, state, time, interval),
+            state,
+            times,
+        )
 
     def _advance_interval(
         self,
@@ -260,7 +365,7 @@ class GeneralizedAlpha(Integrator):
 
 @dataclass(frozen=True)
 class SciPyIVP(Integrator):
-    """SciPy's solvers for stiff equations, with the equations of motion by Pinocchio.
+    """SciPy's solvers for stiff equations on the same equations of motion, by Pinocchio.
 
     The Jacobian is analytic. This is an independent implementation for checks, not a fast one;
     dissipated energy and work are summed from output to output only.
@@ -357,6 +462,23 @@ def first_record(
     return state._replace(energy=sums, power=recorder.power), _channels(recorder, np.nan)
 
 
+def _by_intervals(
+    advance: Callable[[MotionState, float], tuple[MotionState, Records]],
+    state: MotionState,
+    times: Array,
+) -> tuple[MotionState, Records]:
+    """One interval after the other; a failure has what came before it."""
+    pieces: list[Records] = []
+    for time in times.tolist():
+        try:
+            state, records = advance(state, time)
+        except StepFailed as failure:
+            failure.advanced = (state, _joined(pieces)) if pieces else None
+            raise
+        pieces.append(records)
+    return state, _joined(pieces)
+
+
 def _joined(pieces: list[Records]) -> Records:
     return {name: np.concatenate([piece[name] for piece in pieces]) for name in pieces[0]}
 
@@ -383,21 +505,8 @@ def _too_inexact(attempt: _Advanced, step: float) -> StepFailed:
 
 
 def _channels(recorder: Recorder, step: float) -> Records:
-    """Recorded channels, with the step size in s."""
-    names = (
-        "time",
-        "displacement",
-        "acceleration",
-        "section_load",
-        "imbalance",
-        "soil_force",
-        "stroke",
-        "stored",
-        "dissipated",
-        "worked",
-        "iterations",
-        "residual",
-    )
+    """What was recorded, all with steps of one size in s."""
+    names = {"time", *(channel.record for channel in CHANNELS)} & Recorder.__annotations__.keys()
     channels = {name: getattr(recorder, name) for name in names}
     channels["iterations"] = recorder.iterations.astype(np.int32)
     return channels | {"step": np.full(len(recorder.time), step)}
