@@ -198,7 +198,7 @@ TURBINE_FAULTS: dict[str, tuple[Callable[[Definition], None], list[str]]] = {
     "member of a kept name": (_set("members", 1, "name", to="rna"), ["members are named", "rna"]),
     "weightless blades": (
         _set("rna", "blade", "mass_density_kg_per_m", to=[0.0] * 30),
-        ["rna", "weighs nothing"],
+        ["rna", "all zero"],
     ),
     "nacelle inertia about its own centre": (
         _set("rna", "nacelle_yaw_inertia_kg_m2", to=1e6),

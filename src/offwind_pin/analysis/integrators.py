@@ -141,21 +141,6 @@ class Integrator(ABC):
         records : Records
             Records at all outputs.
 
-        Parameters
-        ----------
-        chain : CompiledChain
-            The system under loads.
-        sections : tuple of Cuts and Segments
-            What is recorded.
-        state : MotionState
-            From which it starts.
-        times : (t,) array, s
-            Instants of the outputs.
-
-        Returns
-        -------
-        tuple of MotionState and dict of str to array
-
         Raises
         ------
         StepFailed
@@ -365,7 +350,7 @@ class GeneralizedAlpha(Integrator):
 
 @dataclass(frozen=True)
 class SciPyIVP(Integrator):
-    """SciPy's solvers for stiff equations on the same equations of motion, by Pinocchio.
+    """SciPy's solvers for stiff equations, with the equations of motion by Pinocchio.
 
     The Jacobian is analytic. This is an independent implementation for checks, not a fast one;
     dissipated energy and work are summed from output to output only.

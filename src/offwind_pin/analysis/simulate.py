@@ -167,7 +167,7 @@ def simulate(
     attributes = _provenance(system, chain.acting, ramp, interval, method)
     attributes |= {"engine": engine, "start": start}
     if ground_motion is not None:
-        attributes |= _told_of(ground_motion, method.time_step or interval, duration)
+        attributes |= _earthquake_attributes(ground_motion, method.time_step or interval, duration)
     attributes |= provenance or {}
     run = {
         **attributes,
@@ -461,7 +461,7 @@ def _travel(system: System) -> dict[str, tuple[str, Array, dict[str, str]]]:
     return {"tuned_mass_travel": ("damper", np.array([mass.travel for mass in dampers]), about)}
 
 
-def _told_of_waves(system: System) -> dict[str, Any]:
+def _wave_attributes(system: System) -> dict[str, Any]:
     """Attributes of the realised waves; what there is to say of them goes to the log, too."""
     facts = wave_facts(system)
     notes, cautions = facts.pop("notes", []), facts.pop("cautions", [])

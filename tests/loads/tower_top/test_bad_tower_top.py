@@ -148,7 +148,7 @@ ROTOR_FAULTS: dict[str, tuple[dict[str, Any], Change, list[str]]] = {
     "geometry twice": (
         SHIPPED,
         lambda rotor: rotor.update(overhang_m=-5.0),
-        ["overhang", "rna gives already"],
+        ["overhang", "repeats overhang of rna"],
     ),
     "air in g/m3": (
         SHIPPED,

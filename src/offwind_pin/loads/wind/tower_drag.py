@@ -62,6 +62,17 @@ class TowerWind(LoadDefinition, kw_only=False):
     )
 
     def on(self, structure: Structure) -> TowerDrag:
+        """Create the drag on a structure, see :func:`tower_drag`.
+
+        Parameters
+        ----------
+        structure : Structure
+            Turbine, chain and hydrodynamic model, such as a :class:`System`.
+
+        Returns
+        -------
+        TowerDrag
+        """
         return tower_drag(structure, self)
 
 
@@ -109,6 +120,17 @@ def tower_drag(system: Structure, wind: TowerWind) -> TowerDrag:
 
     It acts from the highest water level, or from still water level of a dry structure, up to the
     yaw bearing.
+
+    Parameters
+    ----------
+    system : Structure
+        Turbine, chain and hydrodynamic model, such as a :class:`System`.
+    wind : TowerWind
+        Mean wind and gust.
+
+    Returns
+    -------
+    TowerDrag
 
     Raises
     ------
