@@ -35,7 +35,7 @@ from offwind_pin.loads.point_load import PointLoad, joined_attributes
 from offwind_pin.loads.tower_top.load_history import LoadHistory, constant_load
 from offwind_pin.results.blocks import BLOCK_FOLDER, Block, BlockStore, FolderStore, MemoryStore
 from offwind_pin.results.dataset import HistoryWriter, versions
-from offwind_pin.solvers.steps import FixedStep
+from offwind_pin.solvers.steps import MOST_OUTPUTS, FixedStep
 
 _log = logging.getLogger(__name__)
 
@@ -143,6 +143,9 @@ def simulate(
     interval = dt if output_dt is None else output_dt
     method = integrator or GeneralizedAlpha(FixedStep(dt), spectral_radius)
     engine = engine_of(method, engine)
+    if duration / interval > MOST_OUTPUTS:
+        allowed = f"{MOST_OUTPUTS:.3g} outputs at most"
+        raise InputError("output_dt", interval, allowed, "Choose a longer one.")
     outputs = round(duration / interval)
     if abs(outputs * interval - duration) > 1e-6 * duration:
         raise InputError(
