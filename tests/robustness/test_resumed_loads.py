@@ -68,7 +68,7 @@ def test_a_changed_load_is_refused(system: ow.System, tmp_path: Path) -> None:
     load = Pull(system.chain.top)
     stopped(system, tmp_path, load)
     for other in (replace(load, size=float(np.nextafter(1e5, 2e5))), Described(system.chain.top)):
-        with pytest.raises(ow.InputError, match=r"another run \(other inputs_sha256\)"):
+        with pytest.raises(ow.InputError, match=r"another run \(different inputs_sha256\)"):
             run(system, tmp_path, other)
 
 
@@ -81,7 +81,7 @@ def test_another_version_is_refused(
     newer = versions() | {"offwind_pin_version": "99.0"}
     with monkeypatch.context() as patch:
         patch.setattr(module, "versions", lambda: newer)
-        with pytest.raises(ow.InputError, match=r"another run \(other offwind_pin_version\)"):
+        with pytest.raises(ow.InputError, match=r"another run \(different offwind_pin_version\)"):
             run(system, tmp_path, load)
     run(system, tmp_path, load)
 

@@ -193,7 +193,7 @@ def test_other_settings_are_refused(system: ow.System, tmp_path: Path, changed: 
     interrupted(system, tmp_path)
     blocks = sorted((tmp_path / BLOCK_FOLDER).iterdir())
     settings, name = CHANGES[changed]
-    with pytest.raises(ow.InputError, match=rf"another run \(other [^)]*\b{name}\b") as refused:
+    with pytest.raises(ow.InputError, match=rf"another run \(different [^)]*\b{name}\b") as refused:
         run(system, "fixed", tmp_path, **settings)
     assert BLOCK_FOLDER in str(refused.value)
     assert "Delete the folder" in str(refused.value)
@@ -215,7 +215,7 @@ def test_other_systems_are_refused(system: ow.System, tmp_path: Path) -> None:
         "inputs_sha256": system.with_damping(1e-9 * system.joint_stiffness, {}),
     }
     for name, other in others.items():
-        with pytest.raises(ow.InputError, match=rf"another run \(other [^)]*\b{name}\b"):
+        with pytest.raises(ow.InputError, match=rf"another run \(different [^)]*\b{name}\b"):
             run(other, "fixed", tmp_path)
 
 

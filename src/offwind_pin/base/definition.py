@@ -35,11 +35,11 @@ ComplexArray = NDArray[np.complex128]
 LARGEST = 1e30
 """Magnitude beyond which no number is plausible, whatever its unit; products stay finite."""
 MOST_NUMBERS = 1_000_000
-"""In a row; more belong in a file of their own."""
+"""Largest length of a list; longer data belongs in a file."""
 
 
 def _plain(value: Any) -> Any:
-    """A number as Python has it; NumPy's are taken, true and false are not."""
+    """A number as a Python object; accepts NumPy numbers and rejects booleans."""
     if isinstance(value, np.generic):
         value = value.item()
     if isinstance(value, bool):
@@ -77,11 +77,11 @@ Number = Annotated[
     Field(strict=True, allow_inf_nan=False, ge=-LARGEST, le=LARGEST),
     BeforeValidator(_plain),
 ]
-"""A finite number; text that looks like one is none."""
+"""A finite number; text is rejected."""
 Integer = Annotated[int, Field(strict=True), BeforeValidator(_plain)]
-"""A whole number; 3.0 is none."""
+"""An integer; 3.0 is rejected."""
 Flag = Annotated[bool, Field(strict=True)]
-"""True or false; 1 and "yes" are neither."""
+"""True or false; 1 and "yes" are rejected."""
 Positive = Annotated[Number, Field(gt=0)]
 NonNegative = Annotated[Number, Field(ge=0)]
 Vector3 = tuple[Number, Number, Number]

@@ -48,7 +48,17 @@ class InputError(OffwindError, ValueError):
         super().__init__(printable(f"{_cut(where, _LONGEST_PLACE)}: {fault}. {remedy}"))
 
     def within(self, where: str) -> InputError:
-        """The same error found within something else, such as a file that names another."""
+        """The same error with a longer location, such as the file that contains the reference.
+
+        Parameters
+        ----------
+        where : str
+            Location that contains the error's own.
+
+        Returns
+        -------
+        InputError
+        """
         return type(self)(f"{where}: {self.where}", self.received, self.allowed, self.remedy)
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -136,7 +146,7 @@ _LONGEST_PLACE = 5000
 
 
 def brief(value: object, limit: int = _LONGEST) -> str:
-    """A value as text of limited length; no more of it is looked at than is shown."""
+    """A value as text of limited length; evaluates no more of it than is shown."""
     return _cut(_beginning(value, limit), limit)
 
 

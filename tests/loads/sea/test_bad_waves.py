@@ -74,7 +74,7 @@ FAULTS: dict[str, tuple[dict[str, Any], list[str]]] = {
     ),
     "noise without width": (
         spectrum(kind="white_noise", significant_height_m=2.0, lowest_hz=0.1, highest_hz=0.104),
-        ["3 components", "minimum is 10"],
+        ["3 components", "at least 10 are required"],
     ),
     "density below zero": (table([0.1, 0.2, 0.3], [1, -1, 1]), ["density at 0.2 Hz", "-1.0"]),
     "unsorted table": (table([0.1, 0.3, 0.2], [1, 1, 1]), ["Sort the table"]),
