@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib import metadata
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -14,6 +13,8 @@ from numpy.typing import NDArray
 
 from offwind_pin.base.whole_files import append_netcdf
 from offwind_pin.results.blocks import Block, BlockStore
+from offwind_pin.results.manifest import RESULTS
+from offwind_pin.results.run_folder import RunFolder
 from offwind_pin.results.tree import TITLES
 
 Array = NDArray[np.float64]
@@ -57,21 +58,19 @@ class HistoryWriter:
     soil: Array = field(default_factory=lambda: np.zeros(0))
     load_channels: Mapping[str, tuple[tuple[str, ...], str, str]] = field(default_factory=dict)
 
-    def write(self, store: BlockStore, status: str, directory: Path | str | None) -> xr.Dataset:
-        """Dataset of all blocks; with a directory it stands in ``results.nc`` there.
+    def write(self, store: BlockStore, status: str, folder: RunFolder | None) -> xr.Dataset:
+        """Dataset of all blocks; with a folder it is written to ``results.nc`` and read from there.
 
         No more than one block is in memory at a time if the dataset goes to a file.
         """
         start = np.sum(next(iter(store))["stored"][0]) if len(store) else 0.0
-        if directory is None:
+        if folder is None:
             blocks = list(store)
             records = [name for name in blocks[0] if not name.startswith("state_")]
             whole = {name: np.concatenate([block[name] for block in blocks]) for name in records}
             return self._dataset(whole, status, start)
-        path = Path(directory) / "results.nc"
-        for left_by_a_kill in path.parent.glob(".results.*.nc"):
-            left_by_a_kill.unlink()
-        append_netcdf(path, (self._dataset(block, status, start) for block in store))
+        with folder.replacing(RESULTS) as path:
+            append_netcdf(path, (self._dataset(block, status, start) for block in store))
         return xr.open_dataset(path, engine="netcdf4")
 
     def _dataset(self, block: Block, status: str, start: float) -> xr.Dataset:

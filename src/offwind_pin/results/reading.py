@@ -7,8 +7,8 @@ from pathlib import Path
 import xarray as xr
 
 from offwind_pin.base.errors import InputError
+from offwind_pin.results.manifest import RESULTS
 
-FILE = "results.nc"
 _TITLE = "offwind-pin"
 _REMEDY = "Name the output directory of `offwind run`, or a results.nc."
 
@@ -29,7 +29,7 @@ def open_results(source: Path | str) -> xr.DataTree:
     InputError : no results found, or a file of another origin
     """
     given = Path(source)
-    path = given / FILE if given.is_dir() else given
+    path = given / RESULTS if given.is_dir() else given
     if not path.is_file():
         raise InputError("results", str(path), "an existing file", _REMEDY)
     try:
