@@ -156,7 +156,6 @@ def simulate(
         **versions(),
         "duration_s": duration,
     }
-    folder = _run_folder(directory, overwrite=overwrite)
     writer = HistoryWriter(
         system.turbine.site.mudline,
         sections[0].height,

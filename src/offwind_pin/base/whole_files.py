@@ -102,7 +102,9 @@ def _netcdf_errors() -> Iterator[None]:
     try:
         yield
     except RuntimeError as error:
-        raise OSError(errno.EIO, f"the file cannot be written ({error}); is the disk full?") from error
+        raise OSError(
+            errno.EIO, f"the file cannot be written ({error}); is the disk full?"
+        ) from error
 
 
 def _encoding(data: xr.Dataset) -> dict[Any, dict[str, Any]]:

@@ -170,9 +170,7 @@ def _finish(folder: RunFolder, *, report: bool) -> dict[str, Any]:
     return dict(json.loads((directory / SUMMARY).read_bytes()))
 
 
-def _solve(
-    case: Case, system: System, folder: RunFolder, progress: Progress | None
-) -> _Solved:
+def _solve(case: Case, system: System, folder: RunFolder, progress: Progress | None) -> _Solved:
     if isinstance(case.analysis, StaticAnalysis):
         return _solve_static(case, system, case.analysis, progress)
     if isinstance(case.analysis, ModalAnalysis):

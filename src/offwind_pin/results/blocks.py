@@ -111,7 +111,7 @@ class FolderStore:
 
     @property
     def _index(self) -> tuple[BlockEntry, ...]:
-        """An interruption between the two steps of :meth:`append` leaves an entry without a file."""
+        """An interruption in the midst of :meth:`append` leaves an entry without a file."""
         manifest = self._folder.manifest
         if manifest is None or not manifest.blocks:
             return ()
