@@ -178,6 +178,7 @@ def simulate(
         if folder is not None:
             store = _folder_store(folder, run, chain, sections)
             if folder.state == "complete":
+                folder.finish()  # a kill may have left blocks
                 return xr.open_dataset(folder.directory / RESULTS, engine="netcdf4")
         if len(store) == 0:
             state, records = first_record(chain, sections, state)

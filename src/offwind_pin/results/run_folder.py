@@ -165,12 +165,9 @@ class RunFolder:
         self.update(files=files)
 
     def finish(self) -> None:
-        """Mark the run as complete, and remove its blocks."""
-        self.update(state="complete")
-        self.tidy()
-
-    def tidy(self) -> None:
-        """Remove the blocks of a complete run, and what killed processes left half written."""
+        """Mark the run as complete; remove blocks, and what killed processes left half written."""
+        if self.state != "complete":
+            self.update(state="complete")
         manifest = self.begin()
         if manifest.blocks is not None:
             self._remove_blocks(manifest)
