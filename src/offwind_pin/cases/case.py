@@ -197,7 +197,8 @@ class Case(Definition):
 
         Raises
         ------
-        InputError : a seed that cannot be used
+        InputError
+            A seed that cannot be used.
         """
         parts = {name: getattr(self, name) for name in type(self).model_fields}
         reseeded = {
@@ -212,7 +213,8 @@ class Case(Definition):
 
         Raises
         ------
-        InputError : a part of the turbine or of the sea that cannot be used
+        InputError
+            A part of the turbine or of the sea that cannot be used.
         """
         name = self.foundation if foundation is None else foundation
         made = FOUNDATIONS[name].make(self.turbine)
@@ -227,7 +229,8 @@ def load_case(name_or_path: str | Path) -> Case:
 
     Raises
     ------
-    InputError : the name is unknown, or the file cannot be read or understood
+    InputError
+        The name is unknown, or the file cannot be read or understood.
     """
     path = find_definition(name_or_path, shipped_cases(), "case")
     return read_definition(path, Case)

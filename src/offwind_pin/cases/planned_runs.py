@@ -26,22 +26,24 @@ def planned_runs(cases: Sequence[Case], seeds: Sequence[int] | None, out: Path) 
 
     Parameters
     ----------
-    seeds : of every case; None for the seed that each case has
+    cases : sequence of Case
+    seeds : sequence of int, or None
+        Of every case; None for the seed that each case has.
+    out : Path
 
     Raises
     ------
-    InputError : two cases of one name
+    InputError
+        Two cases of one name.
     """
     again = [name for name, count in Counter(case.name for case in cases).items() if count > 1]
     if again:
         raise InputError(
             "CASE", f"{again[0]} given twice", "cases with different names", "Rename one of them."
         )
-    reseeded = [
-        case if seed is None else case.with_seed(seed)
-        for case in cases
-        for seed in (seeds or [None])
-    ]
+    reseeded = list(cases)
+    if seeds is not None:
+        reseeded = [case.with_seed(seed) for case in cases for seed in seeds]
     if len(reseeded) == 1:
         return [PlannedRun(reseeded[0], out)]
     return [PlannedRun(case, out / case.name / f"seed_{case.seed:04d}") for case in reseeded]
@@ -52,7 +54,8 @@ def seed_numbers(text: str) -> list[int]:
 
     Raises
     ------
-    InputError : a text that is something else
+    InputError
+        A text that is something else.
     """
     found: list[int] = []
     for part in text.split(","):

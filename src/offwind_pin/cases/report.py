@@ -23,7 +23,8 @@ def report(tree: xr.DataTree) -> str:
 
     Parameters
     ----------
-    tree : results of a case, from :func:`offwind_pin.results.reading.open_case`
+    tree : DataTree
+        Results of a case, from :func:`offwind_pin.results.reading.open_case`.
     """
     return render_report(tree, summary(tree))
 
@@ -33,7 +34,8 @@ def report_again(directory: Path) -> Path:
 
     Raises
     ------
-    InputError : no results of a case there; or a ``report.html`` of other origin
+    InputError
+        No results of a case there, or a ``report.html`` of other origin.
     """
     path = directory / REPORT
     with RunFolder(directory, None) as folder, open_case(directory) as tree:

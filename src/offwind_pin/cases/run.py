@@ -63,8 +63,10 @@ class _Solved:
 
     Attributes
     ----------
-    root : main dataset; None for time histories, which are in their file already
-    groups : datasets by path in the tree; None for those that the case does not have
+    root : Dataset or None
+        Main dataset; None for time histories, which are in their file already.
+    groups : Groups
+        Datasets by path in the tree; None for those that the case does not have.
     simulated : float, s
     """
 
@@ -89,22 +91,31 @@ def run_case(
 
     Parameters
     ----------
-    case : a case, the name of a shipped one, or the path of a YAML file
-    out : directory for the results, created if necessary
-    report : whether to write ``report.html``; ``offwind report`` makes it later
-    overwrite : whether earlier results in ``out`` are replaced
-    progress : called with simulated time and duration in s
+    case : Case, str or Path
+        A case, the name of a shipped one, or the path of a YAML file.
+    out : Path or str
+        Directory for the results, created if necessary.
+    report : bool
+        Whether to write ``report.html``; ``offwind report`` makes it later.
+    overwrite : bool
+        Whether earlier results in ``out`` are replaced.
+    progress : callable, optional
+        Called with simulated time and duration, in s.
 
     Returns
     -------
-    dict : the content of ``summary.json``
+    dict of str to object
+        The content of ``summary.json``.
 
     Raises
     ------
-    InputError : something in the case cannot be used; or ``out`` contains results of another case,
-        files of other origin with the names of the results, or another run is writing to it
-    SolverError, InterruptedSimulation : the solve stopped; the results so far are in ``out``
-    OSError : the disk is full, or ``out`` was removed; the same call continues the run
+    InputError
+        Something in the case cannot be used; or ``out`` contains results of another case or files
+        of other origin with the names of the results, or another run is writing to it.
+    SolverError, InterruptedSimulation
+        The solve stopped; the results so far are in ``out``.
+    OSError
+        The disk is full, or ``out`` was removed.
     """
     out = Path(out)
     check_writable(out)

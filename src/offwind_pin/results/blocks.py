@@ -63,11 +63,13 @@ class FolderStore:
     Parameters
     ----------
     folder : RunFolder
-    simulation : Simulation, what determines the time history
+    simulation : Simulation
+        What determines the time history.
 
     Raises
     ------
-    InputError : the directory contains a time history that is determined by something else
+    InputError
+        The directory contains a time history that is determined by something else.
     """
 
     def __init__(self, folder: RunFolder, simulation: Simulation) -> None:

@@ -30,7 +30,8 @@ class FolderLock:
 
     Raises
     ------
-    InputError : another run has the lock
+    InputError
+        Another run has the lock.
     """
 
     def __init__(self, directory: Path) -> None:

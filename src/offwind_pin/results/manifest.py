@@ -15,11 +15,13 @@ from offwind_pin.base.errors import InputError
 from offwind_pin.base.fingerprint import package_digest
 
 MANIFEST = "manifest.json"
-RESULTS, SUMMARY, REPORT = "results.nc", "summary.json", "report.html"
 BLOCKS = "blocks"
 """Folder of the blocks of a time history."""
 
 FileName = Literal["results.nc", "summary.json", "report.html"]
+RESULTS: FileName = "results.nc"
+SUMMARY: FileName = "summary.json"
+REPORT: FileName = "report.html"
 State = Literal["running", "interrupted", "failed", "solved", "complete"]
 Values = dict[str, Any]
 Digest = Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")]
@@ -36,9 +38,12 @@ class BlockEntry(_Entry):
 
     Attributes
     ----------
-    file : str, name in the folder of blocks
-    begin_s, end_s : float, simulated time of the first and of the last record
-    sha256 : str, of the file
+    file : str
+        Name in the folder of blocks.
+    begin_s, end_s : float, s
+        Simulated time of the first and of the last record.
+    sha256 : str
+        Of the file.
     """
 
     file: Annotated[str, Field(pattern=r"^block_\d{6,}\.npz$")]
@@ -52,10 +57,13 @@ class Simulation(_Entry):
 
     Attributes
     ----------
-    settings : dict, of the simulation, with seeds
-    inputs : dict, fingerprints of loads, foundation, structure and recorded heights by name; None
-        for one that has none
-    environment : dict, versions of the programs that change a result in its last digits
+    settings : dict of str to object
+        Of the simulation, with seeds.
+    inputs : dict of str to str or None
+        Fingerprints of loads, foundation, structure and recorded heights by name; None for a load
+        that has none.
+    environment : dict of str to str
+        Versions of the programs that may change a result, if only in its last digits.
     """
 
     settings: Values
@@ -68,13 +76,18 @@ class Manifest(_Entry):
 
     Attributes
     ----------
-    run_id : str, drawn when the run begins
-    run : dict, what identifies the run: the name of the case, its content hash, the version
-    state : how far the run is; ``solved`` if ``results.nc`` has everything, and report and summary
-        are still to be written
-    files : dict, SHA-256 of the files of the run; None for one that is being written
-    simulation : Simulation, None for a run without a time history
-    blocks : list of BlockEntry; None if there is no folder of blocks
+    run_id : str
+        Drawn when the run begins.
+    run : dict of str to object
+        What identifies the run: the name of the case, its content hash, the version.
+    state : {"running", "interrupted", "failed", "solved", "complete"}
+        ``solved`` if ``results.nc`` has everything, and report and summary are still to be written.
+    files : dict of str to str or None
+        SHA-256 of the files of the run; None for one that is being written.
+    simulation : Simulation or None
+        None for a run without a time history.
+    blocks : tuple of BlockEntry or None
+        None if there is no folder of blocks.
     """
 
     format: Literal["offwind-pin run 1"] = "offwind-pin run 1"
@@ -91,7 +104,8 @@ def read_manifest(directory: Path) -> Manifest | None:
 
     Raises
     ------
-    InputError : a file of this name that cannot be read, or is not a manifest
+    InputError
+        A file of this name that cannot be read, or is not a manifest.
     """
     path = directory / MANIFEST
     try:

@@ -45,18 +45,23 @@ class RunFolder:
 
     Parameters
     ----------
-    directory : Path, created if necessary
-    run : dict, what identifies the run; None for whichever run is in the directory
-    overwrite : bool, whether the files of an earlier run are replaced, once this one has results
+    directory : Path
+        Created if necessary.
+    run : dict of str to object, or None
+        What identifies the run; None for whichever run is in the directory.
+    overwrite : bool
+        Whether the files of an earlier run are replaced, once this one has results.
 
     Attributes
     ----------
-    manifest : Manifest, None before the run has begun
+    manifest : Manifest or None
+        None before the run has begun.
 
     Raises
     ------
-    InputError : another run is writing there; or the directory contains results of another run, or
-        files that are not a run's own
+    InputError
+        Another run is writing there; or the directory contains results of another run, or files
+        that are not a run's own.
     """
 
     def __init__(self, directory: Path, run: Values | None, *, overwrite: bool = False) -> None:
@@ -104,7 +109,8 @@ class RunFolder:
 
         Raises
         ------
-        FileNotFoundError : as :meth:`check`
+        FileNotFoundError
+            As :meth:`check`.
         """
         if self.manifest is None:
             self.check()
@@ -119,7 +125,8 @@ class RunFolder:
 
         Raises
         ------
-        FileNotFoundError : as :meth:`check`
+        FileNotFoundError
+            As :meth:`check`.
         """
         self._write(self.begin().model_copy(update=changed))
 
@@ -128,7 +135,8 @@ class RunFolder:
 
         Raises
         ------
-        FileNotFoundError : it was removed or replaced
+        FileNotFoundError
+            It was removed or replaced.
         """
         if not self._lock.intact:
             raise FileNotFoundError(
@@ -144,7 +152,8 @@ class RunFolder:
 
         Raises
         ------
-        InputError : there is such a file, and it is not the run's own
+        InputError
+            There is such a file, and it is not the run's own.
         """
         files = self._own_files(name)
         self.update(files=files | {name: None})
@@ -157,7 +166,8 @@ class RunFolder:
 
         Raises
         ------
-        InputError : as :meth:`replacing`
+        InputError
+            As :meth:`replacing`.
         """
         files = self._own_files(name)
         (self.directory / name).unlink(missing_ok=True)
@@ -211,7 +221,9 @@ class RunFolder:
     def _check_files(self) -> None:
         """Refuse a directory where files that are not the run's own have the names of its files."""
         complete = self.state == "complete"
-        names: tuple[FileName, ...] = (RESULTS, SUMMARY) if complete else (RESULTS, SUMMARY, REPORT)
+        names: tuple[FileName, ...] = (RESULTS, SUMMARY)
+        if not complete:
+            names = (*names, REPORT)
         foreign: list[str] = [name for name in names if not self._is_own(self._earlier, name)]
         if not complete:
             foreign += self._foreign_blocks()
