@@ -87,7 +87,7 @@ def run_case(
 
     All input is checked before anything is written. If ``out`` contains the finished results of the
     same case from the same version, nothing is solved. A transient case that was stopped is
-    continued from the last block in ``out``. Page "What a run writes and how it resumes" describes the directory.
+    continued from the last block in ``out``.
 
     Parameters
     ----------
