@@ -19,6 +19,7 @@ from offwind_pin.results.manifest import BLOCKS, MANIFEST, read_manifest
 
 DURATION, OUTPUT = 90.0, 0.5
 """Four blocks of 20 s and a half one."""
+SAVED = ow.SaveAt(OUTPUT, heights=[0.0, 50.0])
 
 INTEGRATORS: dict[str, Integrator] = {
     "fixed": ow.GeneralizedAlpha(ow.FixedStep(0.05)),
@@ -47,9 +48,8 @@ def run(
         "duration": DURATION,
         "loads": [history()],
         "ramp": 10.0,
-        "output_dt": OUTPUT,
         "integrator": INTEGRATORS[method],
-        "heights": [0.0, 50.0],
+        "save_at": SAVED,
         "directory": directory,
     }
     return ow.simulate(system, **(settings | changed))  # type: ignore[arg-type]
@@ -136,7 +136,7 @@ def test_no_cache_outlives_a_block(system: ow.System, tmp_path: Path) -> None:
     settings: dict[str, object] = {
         "duration": 18.0,
         "ramp": 1.0,
-        "output_dt": 0.3,
+        "save_at": SAVED.replace(output_dt=0.3),
         "integrator": ow.GeneralizedAlpha(ow.FixedStep(0.3 / 128)),
     }
     run(system, "fixed", tmp_path / "whole", **settings).close()
@@ -199,11 +199,12 @@ CHANGES: dict[str, tuple[dict[str, object], str]] = {
     "integrator": ({"integrator": INTEGRATORS["adaptive"]}, "step_policy"),
     "duration": ({"duration": 80.0}, "duration_s"),
     "ramp": ({"ramp": 5.0}, "ramp_s"),
-    "output": ({"output_dt": 0.25}, "output_dt_s"),
+    "output": ({"save_at": SAVED.replace(output_dt=0.25)}, "output_dt_s"),
     "load": ({"loads": [history(1 + 1e-12)]}, "load 4 tower_top"),
     "no load": ({"loads": []}, "tower_top_load_origin"),
-    "heights": ({"heights": [0.0, 50.5]}, "recorded heights"),
-    "segments": ({"segments": [(-75.0, 0.0)]}, "recorded heights"),
+    "heights": ({"save_at": SAVED.replace(heights=[0.0, 50.5])}, "recorded heights"),
+    "channels": ({"save_at": SAVED.replace(channels=["mudline_moment"])}, "channels"),
+    "segments": ({"save_at": SAVED.replace(segments=[(-75.0, 0.0)])}, "recorded heights"),
     "provenance": ({"provenance": {"case": "another"}}, "case"),
 }
 
@@ -294,7 +295,7 @@ def test_own_loads_and_restraints_resume(undamped: ow.Turbine, tmp_path: Path) -
     root = HardeningRestraint(stiffness, 0.02 * stiffness)
     system = replace(bare, foundation=replace(bare.foundation, root=root))
     load = FromHistory(system.chain.top, "own", history(), history().load[0])
-    settings: dict[str, object] = {"loads": [load], "heights": [0.0]}
+    settings: dict[str, object] = {"loads": [load], "save_at": SAVED.replace(heights=[0.0])}
     run(system, "fixed", tmp_path / "whole", **settings).close()
     interrupted(system, tmp_path / "stopped", **settings)
     run(system, "fixed", tmp_path / "stopped", **settings).close()

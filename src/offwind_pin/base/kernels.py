@@ -138,13 +138,13 @@ def announce() -> None:
 @contextmanager
 def _own_cache() -> Iterator[None]:
     """Numba's cache and its directory, ours for the kernels made in the block."""
-    before = config.CACHE_DIR, dispatcher.FunctionCache  # type: ignore[attr-defined]
-    config.CACHE_DIR = str(_cache_directory())  # type: ignore[attr-defined]
-    dispatcher.FunctionCache = KernelCache  # type: ignore[misc]
+    settings, dispatchers = cast("Any", config), cast("Any", dispatcher)
+    before = settings.CACHE_DIR, dispatchers.FunctionCache
+    settings.CACHE_DIR, dispatchers.FunctionCache = str(_cache_directory()), KernelCache
     try:
         yield
     finally:
-        config.CACHE_DIR, dispatcher.FunctionCache = before  # type: ignore[attr-defined,misc]
+        settings.CACHE_DIR, dispatchers.FunctionCache = before
 
 
 @cache
