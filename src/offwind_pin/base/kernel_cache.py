@@ -38,20 +38,20 @@ class _Locator(UserProvidedCacheLocator):
 
 
 class _Implementation(CompileResultCacheImpl):
-    _locator_classes = (_Locator,)
+    _locator_classes = [_Locator]  # noqa: RUF012 (as Numba declares it)
 
 
 class _Files(IndexDataCacheFile):
     """Index and machine code of one kernel."""
 
     def _load_index(self) -> Any:
-        return super()._load_index() if _is_whole(self._index_path) else {}
+        return super()._load_index() if _is_whole(self._index_path) else {}  # type: ignore[no-untyped-call]
 
     def _load_data(self, name: str) -> Any:
-        path = self._data_path(name)
+        path = self._data_path(name)  # type: ignore[no-untyped-call]
         if not _is_whole(path):
             raise FileNotFoundError(path)  # Numba then compiles
-        return super()._load_data(name)
+        return super()._load_data(name)  # type: ignore[no-untyped-call]
 
     @contextmanager
     def _open_for_write(self, filepath: str) -> Iterator[BytesIO]:
@@ -68,8 +68,8 @@ class KernelCache(FunctionCache):
     _impl_class = _Implementation
 
     def __init__(self, py_func: Any) -> None:
-        super().__init__(py_func)
-        self._cache_file = _Files(
+        super().__init__(py_func)  # type: ignore[no-untyped-call]
+        self._cache_file = _Files(  # type: ignore[no-untyped-call]
             cache_path=self._cache_path,
             filename_base=self._impl.filename_base,
             source_stamp=self._impl.locator.get_source_stamp(),
@@ -77,7 +77,7 @@ class KernelCache(FunctionCache):
 
     def save_overload(self, sig: Any, data: Any) -> None:
         try:
-            super().save_overload(sig, data)
+            super().save_overload(sig, data)  # type: ignore[no-untyped-call]
         except OSError as error:
             _report_unwritable(str(Path(self._cache_path).parent), error.strerror or str(error))
 
