@@ -21,14 +21,59 @@ from pathlib import Path
 from typing import Any, TypeVar, cast
 
 from numba import config, njit, types
-from numba.core import cgutils
+from numba.core import cgutils, typed_passes, untyped_passes
+from numba.core.compiler import CompilerBase, DefaultPassBuilder, Flags
 from numba.extending import intrinsic
 
 _log = logging.getLogger(__name__)
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
-_OPTIONS: dict[str, Any] = {"cache": True, "error_model": "numpy", "no_cfunc_wrapper": True}
+_UNUSED = {
+    untyped_passes.RewriteSemanticConstants,
+    untyped_passes.DeadBranchPrune,
+    untyped_passes.MakeFunctionToJitFunction,
+    untyped_passes.FindLiterallyCalls,
+    untyped_passes.LiteralUnroll,
+    untyped_passes.LiteralPropagationSubPipelinePass,
+    typed_passes.NopythonRewrites,
+    typed_passes.DumpParforDiagnostics,
+}
+"""Steps of Numba that kernels do not need: branches on types, literal loops, fused arrays."""
+
+
+class _KnownFlags(Flags):
+    """Compiler flags that are compared quickly: Numba does so thousands of times per kernel."""
+
+    @cached_property
+    def _known(self) -> dict[str, Any]:
+        return super().values()
+
+    def values(self) -> dict[str, Any]:
+        return self._known
+
+
+class _Pipeline(CompilerBase):
+    """Numba's compiler without the steps in :data:`_UNUSED`."""
+
+    def define_pipelines(self) -> list[Any]:
+        self.state.flags = _KnownFlags(self.state.flags)
+        manager = DefaultPassBuilder.define_nopython_pipeline(self.state)
+        manager.passes = [step for step in manager.passes if step[0] not in _UNUSED]
+        manager.finalize()
+        return [manager]
+
+    def _compile_core(self):
+        self.state.flags = _KnownFlags(self.state.flags)
+        return super()._compile_core()
+
+
+_OPTIONS: dict[str, Any] = {
+    "cache": True,
+    "error_model": "numpy",
+    "no_cfunc_wrapper": True,
+    "pipeline_class": _Pipeline,
+}
 _INNER: dict[str, Any] = _OPTIONS | {"no_cpython_wrapper": True}
 
 

@@ -38,7 +38,7 @@ def make_model(
     carrier = chain.body_at(height)
     origin = chain.origin
     widths = [len(load.mean_inputs()) for load in loads]
-    constants = [np.asarray(load.constants, dtype=float).ravel() for load in loads]
+    constants = [np.asarray(load.constants, dtype=float) for load in loads]
     sizes = [*(load.memory_size for load in loads), root.memory_size]
     return Model(
         base=chain.base,
@@ -73,8 +73,9 @@ def make_model(
         first_point=_beginnings([len(load.height) for load in loads]),
         # the time comes first, then the ground
         first_input=1 + GROUND_NUMBERS * ground.levels + _beginnings(widths),
-        first_constant=_beginnings([len(numbers) for numbers in constants]),
-        constants=np.concatenate([np.zeros(0), *constants]),
+        first_constant=_beginnings([table.size for table in constants]),
+        columns=np.array([table.shape[1] for table in constants], dtype=np.intp),
+        constants=np.concatenate([np.zeros(0), *(table.ravel() for table in constants)]),
         first_memory=_beginnings(sizes),
         forces=_addresses([load.force_kernel.address for load in loads]),
         tangents=_addresses(

@@ -115,6 +115,7 @@ class Model(Record):
     first_point: Counts
     first_input: Counts
     first_constant: Counts
+    columns: Counts
     constants: Numbers
     first_memory: Counts
     forces: Counts

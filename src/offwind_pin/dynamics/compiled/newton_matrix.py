@@ -16,14 +16,13 @@ from numba import types
 
 from offwind_pin.base.definition import Array
 from offwind_pin.base.kernels import exchangeable, inlined, inner
-from offwind_pin.base.records import part
+from offwind_pin.base.records import matrix, part
 from offwind_pin.dynamics.compiled.model import Data, Factorisation, Model, State
 from offwind_pin.dynamics.compiled.residual import (
     DATA,
     MODEL,
     ROW,
     STATE,
-    constants_of,
     inertial_wrench,
     rna_wrench,
 )
@@ -316,7 +315,9 @@ def load_matrices(
                 model.tangents[load],
                 (
                     part(motion, first, last),
-                    constants_of(model, load),
+                    matrix(
+                        model.constants, model.first_constant[load], last - first, model.columns[load]
+                    ),
                     part(time_inputs, model.first_input[load], model.first_input[load + 1]),
                     part(state.memory, model.first_memory[load], model.first_memory[load + 1]),
                     own,

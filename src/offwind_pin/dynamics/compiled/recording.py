@@ -8,7 +8,7 @@ from numba import types
 
 from offwind_pin.base.definition import Array
 from offwind_pin.base.kernels import exchangeable, inlined, inner
-from offwind_pin.base.records import part
+from offwind_pin.base.records import matrix, part
 from offwind_pin.dynamics.compiled.model import NO_JOINT, Data, Model, State, Vector
 from offwind_pin.dynamics.compiled.recorder import (
     GROUND,
@@ -22,7 +22,6 @@ from offwind_pin.dynamics.compiled.residual import (
     MODEL,
     ROW,
     STATE,
-    constants_of,
     inertial_wrench,
     rna_arm,
     rna_inertia_times,
@@ -254,11 +253,12 @@ def store_energies(model: Model, data: Data, state: State, recorder: Recorder, i
     result[i, 3] = data.root_power[1]
     for n in range(len(recorder.energies)):
         if recorder.energies[n] != 0:
+            first, last = model.first_point[n], model.first_point[n + 1]
             result[i, 4 + n] = _energy(
                 recorder.energies[n],
                 (
-                    part(data.motion, model.first_point[n], model.first_point[n + 1]),
-                    constants_of(model, n),
+                    part(data.motion, first, last),
+                    matrix(model.constants, model.first_constant[n], last - first, model.columns[n]),
                     part(state.memory, model.first_memory[n], model.first_memory[n + 1]),
                 ),
             )

@@ -90,21 +90,12 @@ def evaluate_loads(model: Model, data: Data, state: State, time_inputs: Array) -
             model.forces[i],
             (
                 part(data.motion, first, last),
-                constants_of(model, i),
+                matrix(model.constants, model.first_constant[i], last - first, model.columns[i]),
                 part(time_inputs, model.first_input[i], model.first_input[i + 1]),
                 part(state.memory, model.first_memory[i], model.first_memory[i + 1]),
                 part(data.force, first, last),
             ),
         )
-
-
-@inner
-def constants_of(model: Model, load: int) -> Array:
-    """(n, c) constants of a load at its n points."""
-    first, points = model.first_constant[load], model.first_point
-    rows = points[load + 1] - points[load]
-    columns = (model.first_constant[load + 1] - first) // max(rows, 1)
-    return matrix(model.constants, first, rows, columns)
 
 
 @step_kernel
@@ -113,11 +104,12 @@ def commit(model: Model, data: Data, state: State, time_inputs: Array) -> None:
     memory, first_memory, loads = state.memory, model.first_memory, len(model.forces)
     for i in range(loads):
         if model.commits[i] != 0:
+            first, last = model.first_point[i], model.first_point[i + 1]
             data.dissipated_energy[i] = _commit(
                 model.commits[i],
                 (
-                    part(data.motion, model.first_point[i], model.first_point[i + 1]),
-                    constants_of(model, i),
+                    part(data.motion, first, last),
+                    matrix(model.constants, model.first_constant[i], last - first, model.columns[i]),
                     part(time_inputs, model.first_input[i], model.first_input[i + 1]),
                     part(memory, first_memory[i], first_memory[i + 1]),
                 ),
