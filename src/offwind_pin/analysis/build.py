@@ -27,18 +27,23 @@ def build(
 
     Parameters
     ----------
-    foundation : ``"clamped"``, ``"apparent_fixity"``, ``"coupled_springs"``,
-        ``"distributed_springs"`` or ``"macro_element"``, a name given to ``register_foundation``,
-        or a :class:`Foundation`
-    sea : :class:`StillWater`, :class:`IrregularWaves`, or None for a dry structure
-    elements : number of multibody beam elements in all, by region, or None for the default, which
-        puts the first five frequencies within 0.1 % of the converged ones
-    stiffness : ``"flexibility"`` or ``"midpoint"``, see :func:`build_chain`
-    element : ``"euler_bernoulli"``, or ``"timoshenko"`` for elements that shear as well
+    foundation : str or Foundation
+        A name, ``"clamped"`` for example, of the kinds in
+        :mod:`offwind_pin.analysis.foundation.registry`, or a :class:`Foundation`.
+    sea : Sea, optional
+        :class:`StillWater`, :class:`IrregularWaves`, or None for a dry structure.
+    elements : int, dict of str to int, or None
+        Number of multibody beam elements in all, by region, or None for the default, which puts the
+        first five frequencies within 0.1 % of the converged ones.
+    stiffness : {"flexibility", "midpoint"}
+        ``"flexibility"`` or ``"midpoint"``, see :func:`build_chain`.
+    element : {"euler_bernoulli", "timoshenko"}
+        ``"euler_bernoulli"``, or ``"timoshenko"`` for elements that shear as well.
 
     Raises
     ------
-    InputError : an argument or a part of the turbine that cannot be used
+    InputError
+        An argument or a part of the turbine that cannot be used.
     """
     if not (sea is None or isinstance(sea, Sea)):
         raise InputError(

@@ -22,8 +22,10 @@ class StructuralDamping:
 
     Attributes
     ----------
-    factor : damping over stiffness in s, by region: (side-side, fore-aft); torsion takes their mean
-    achieved : damping ratio of the calibrated modes on the system they were calibrated on
+    factor : dict of str to (float, float), s
+        Damping over stiffness, by region: (side-side, fore-aft); torsion takes their mean.
+    achieved : dict of str to float
+        Damping ratio of the calibrated modes on the system they were calibrated on.
     """
 
     factor: dict[str, tuple[float, float]]
@@ -50,7 +52,8 @@ def calibrate_damping(undamped: System, calibration: DampingCalibration) -> Stru
 
     Raises
     ------
-    InputError : a named mode is not among the first twelve
+    InputError
+        A named mode is not among the first twelve.
     """
     result = modes(undamped, n=min(_SEARCHED_MODES, undamped.nv))
     regions = sorted({region for region in undamped.chain.region if region != "pile"})

@@ -80,7 +80,8 @@ def key(name: str, *, default: Any = ..., kw_only: bool | None = None) -> Any:
 
     Parameters
     ----------
-    name : key in a file, such as ``height_m``
+    name : str
+        Key in a file, such as ``height_m``.
     """
     return Field(default, validation_alias=name, serialization_alias=name, kw_only=kw_only)
 
@@ -125,7 +126,8 @@ class Definition(BaseModel):
 
         Raises
         ------
-        InputError : a value that cannot be used, named by its field
+        InputError
+            A value that cannot be used, named by its field.
         """
         called = type(self).__name__
         if len(values) > len(self._positional):
@@ -170,7 +172,8 @@ class Definition(BaseModel):
 
         Raises
         ------
-        InputError : a value that cannot be used
+        InputError
+            A value that cannot be used.
         """
         kept = {name: getattr(self, name) for name in self.model_fields_set}
         return type(self)(**(kept | changes))
@@ -181,7 +184,8 @@ class Definition(BaseModel):
 
         Raises
         ------
-        InputError : a file that cannot be read
+        InputError
+            A file that cannot be read.
         """
         text = json.dumps(_content(self), sort_keys=True, separators=(",", ":"))
         return hashlib.sha256(text.encode()).hexdigest()
@@ -260,7 +264,8 @@ def file_digest(path: Path) -> str:
 
     Raises
     ------
-    InputError : it cannot be read
+    InputError
+        It cannot be read.
     """
     try:
         with path.open("rb") as file:

@@ -24,7 +24,8 @@ def read_text(path: Path) -> str:
 
     Raises
     ------
-    InputError : it is missing, cannot be read, or is not text
+    InputError
+        It is missing, cannot be read, or is not text.
     """
     try:
         return path.read_text(encoding="utf-8-sig")
@@ -41,7 +42,8 @@ def read_numbers(path: Path, columns: tuple[str, ...]) -> list[tuple[int, tuple[
 
     Raises
     ------
-    InputError : missing or empty file, wrong header, a cell that is not a finite number
+    InputError
+        Missing or empty file, wrong header, a cell that is not a finite number.
     """
     header_seen = False
     rows = []
@@ -78,18 +80,23 @@ def read_time_columns(
 
     Parameters
     ----------
-    count : number of columns, the time included
-    fewest : number of rows that the file must have
-    header : whether the first line may name the columns
+    count : int
+        Number of columns, the time included.
+    fewest : int
+        Number of rows that the file must have.
+    header : bool
+        Whether the first line may name the columns.
 
     Returns
     -------
-    (n, count) numbers, the n line numbers, and the text of the file
+    (array, list of int, str)
+        (n, count) numbers, the n line numbers, and the text of the file.
 
     Raises
     ------
-    InputError : a missing, empty or short file; a cell that is not a finite number; times that do
-        not rise, or that leave a gap
+    InputError
+        A missing, empty or short file; a cell that is not a finite number; times that do not rise,
+        or that leave a gap.
     """
     text = read_text(path)
     rows: list[tuple[float, ...]] = []
@@ -118,11 +125,13 @@ def check_times(path: Path, time: NDArray[np.float64], place: Sequence[int], cou
 
     Parameters
     ----------
-    place : (t,) where they are in the file, in what ``counted`` names
+    place : (t,) sequence of int
+        Where they are in the file, in what ``counted`` names.
 
     Raises
     ------
-    InputError : with the place of the first fault
+    InputError
+        With the place of the first fault.
     """
     step = np.diff(time)
     back = np.flatnonzero(~(step > 0))
@@ -153,7 +162,8 @@ def to_numbers(path: Path, line: int, cells: list[str], count: int) -> tuple[flo
 
     Raises
     ------
-    InputError : a wrong number of cells, or a cell that is not a finite number
+    InputError
+        A wrong number of cells, or a cell that is not a finite number.
     """
     where = f"{path}, line {line}"
     if len(cells) != count:

@@ -24,11 +24,13 @@ def load_turbine(name_or_path: str | Path) -> Turbine:
 
     Parameters
     ----------
-    name_or_path : a shipped name (``"oc6_phase2"``) or the path of a YAML file
+    name_or_path : str or Path
+        A shipped name (``"oc6_phase2"``) or the path of a YAML file.
 
     Raises
     ------
-    InputError : the name is unknown, or the file cannot be read or understood
+    InputError
+        The name is unknown, or the file cannot be read or understood.
     """
     path = find_definition(name_or_path, shipped_turbines(), "turbine")
     return read_definition(path, Turbine)
@@ -56,7 +58,8 @@ def read_definition(path: Path, kind: type[Kind]) -> Kind:
 
     Raises
     ------
-    InputError : the file is empty, not YAML, or does not fit the definition
+    InputError
+        The file is empty, not YAML, or does not fit the definition.
     """
     data = _read_yaml(path)
     try:

@@ -354,12 +354,15 @@ class Turbine(Definition):
 
         Parameters
         ----------
-        z : float, m, from the toe to the yaw bearing
-        side : whose section counts where two members of different sections meet
+        z : float, m
+            From the toe to the yaw bearing.
+        side : {"above", "below"}
+            Whose section counts where two members of different sections meet.
 
         Raises
         ------
-        InputError : a height off the structure, or an unknown side
+        InputError
+            A height off the structure, or an unknown side.
         """
         if not self.toe <= z <= self.yaw_bearing:
             raise InputError(

@@ -30,10 +30,18 @@ class System:
 
     Attributes
     ----------
-    turbine, foundation, chain : what was built
-    sea : None for a dry structure
-    joint_stiffness, joint_damping : (nv,) of the chain's springs and dampers, zero at the root
-    damping_ratios : achieved ratios of the calibrated modes by label, for the record
+    turbine : Turbine
+        Definition of the structure.
+    foundation : Foundation
+        What supports it.
+    chain : Chain
+        Bodies and joints of the structure.
+    sea : Sea or None
+        None for a dry structure.
+    joint_stiffness, joint_damping : (nv,) array
+        Of the chain's springs and dampers, zero at the root.
+    damping_ratios : dict of str to float
+        Achieved ratios of the calibrated modes by label, for the record.
     """
 
     turbine: Turbine

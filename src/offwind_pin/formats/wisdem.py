@@ -50,15 +50,21 @@ class WisdemPile:
 
     Attributes
     ----------
-    length : embedded, WISDEM's ``suctionpile_depth``, in m
-    bending : EI in N m2
-    shear : G times the shear area ``section_Asx`` in N; infinite for WISDEM's ``shear: False``
-    axial : EA in N
-    torsional : GJ in N m2
+    length : float, m
+        Embedded, WISDEM's ``suctionpile_depth``.
+    bending : float, N m2
+        EI.
+    shear : float, N
+        G times the shear area ``section_Asx``; infinite for WISDEM's ``shear: False``.
+    axial : float, N
+        EA.
+    torsional : float, N m2
+        GJ.
 
     Raises
     ------
-    InputError : a number that is not positive, or not finite but for the shear stiffness
+    InputError
+        A number that is not positive, or not finite but for the shear stiffness.
     """
 
     length: float
@@ -83,14 +89,17 @@ def write_wisdem(path: Path, stiffness: ArrayLike, pile: WisdemPile, *, note: st
 
     Parameters
     ----------
-    stiffness : (6, 6) at the mudline, order x, y, z, rx, ry, rz, N, m, rad; symmetric, with
-        couplings of sway and rocking in the same plane only; others below a thousandth of the root
-        of their diagonal entries are left out, and the file says how large they are
-    note : one line for the head of the file
+    stiffness : (6, 6) array_like
+        At the mudline, order x, y, z, rx, ry, rz, N, m, rad; symmetric, with couplings of sway and
+        rocking in the same plane only; others below a thousandth of the root of their diagonal
+        entries are left out, and the file says how large they are.
+    note : str
+        One line for the head of the file.
 
     Raises
     ------
-    InputError : another matrix, or one that no such springs give
+    InputError
+        Another matrix, or one that no such springs give.
     """
     matrix = symmetric_matrix(stiffness, "stiffness")
     left_out = _left_out(matrix)
@@ -123,8 +132,9 @@ def read_wisdem(path: Path, pile: WisdemPile) -> Array:
 
     Raises
     ------
-    InputError : a missing file, or one without ten heights from the pile's foot to the mudline and
-        their springs
+    InputError
+        A missing file, or one without ten heights from the pile's foot to the mudline and their
+        springs.
     """
     heights, springs = _read(path)
     if not np.isclose(heights[0], -pile.length, rtol=1e-6) or abs(heights[-1]) > 1e-6 * pile.length:

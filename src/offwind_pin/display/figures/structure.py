@@ -24,7 +24,7 @@ from offwind_pin.display.figures.style import (
     styled,
 )
 from offwind_pin.display.rotor_nacelle import rotor_nacelle
-from offwind_pin.display.wording import TIMES, base_name, fixed
+from offwind_pin.display.wording import base_name, fixed, foundation_name
 
 _SIDES = (-44.0, 60.0)
 """m shown on the windward side, and on the lee side where the labels stand."""
@@ -45,7 +45,8 @@ def structure(data: xr.Dataset) -> Figure:
 
     Parameters
     ----------
-    data : of :func:`offwind_pin.analysis.drawing_data.structure_dataset`
+    data : Dataset
+        Of :func:`offwind_pin.analysis.drawing_data.structure_dataset`.
     """
     springs = data["spring_height"].to_numpy() if "spring_height" in data else None
     base, top, mudline = _levels(data)
@@ -200,10 +201,8 @@ def _foundation(axes: Axes, data: xr.Dataset, springs: Array | None, reach: floa
         _toe_spring(axes, base)
     elif data.attrs["root"] == "fixed":
         _clamp(axes, base, radius)
-    elif data.attrs["foundation"] == "macro_element":
-        _mudline_springs(axes, mudline, radius, "macro-element at the mudline")
     else:
-        _mudline_springs(axes, mudline, radius, f"6{TIMES}6 stiffness at the mudline")
+        _mudline_springs(axes, mudline, radius, foundation_name(data.attrs["foundation"]))
 
 
 def _springs(axes: Axes, height: Array, radius: float, reach: float) -> None:

@@ -36,13 +36,19 @@ class OpenFastOutput:
 
     Attributes
     ----------
-    path : of the file
-    digest : SHA-256 of its content
-    time : (t,) in s
-    name, unit : c of each, as in the file, without time
-    data : (t, c) in the file's units
-    place : (t,) where each time stands in the file: its line, or its number from 1
-    counted : ``line`` or ``time step``
+    path : Path
+        Of the file.
+    digest : str
+        SHA-256 of its content.
+    time : (t,) array, s
+    name, unit : list of str
+        c of each, as in the file, without time.
+    data : (t, c) array
+        In the file's units.
+    place : list of int
+        Location of each time in the file: its line, or its number from 1.
+    counted : str
+        ``line`` or ``time step``.
     """
 
     path: Path
@@ -59,7 +65,8 @@ class OpenFastOutput:
 
         Raises
         ------
-        InputError : no channel of that name, or one of another kind
+        InputError
+            No channel of that name, or one of another kind.
         """
         by_name = {known.lower(): i for i, known in enumerate(self.name)}
         index = by_name.get(name.lower())
@@ -83,7 +90,8 @@ def read_openfast_output(path: Path) -> OpenFastOutput:
 
     Raises
     ------
-    InputError : a file that is missing, truncated, or of another format; the message tells where
+    InputError
+        A file that is missing, truncated, or of another format; the message tells where.
     """
     path = Path(path)
     return _read_binary(path) if path.suffix.lower() == ".outb" else _read_text(path)

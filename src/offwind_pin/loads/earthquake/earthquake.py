@@ -69,11 +69,16 @@ class Earthquake(RecordFile):
 
     Attributes
     ----------
-    levels : records by height, in place of a single one
-    scale : float, multiplies accelerations
-    direction_deg : float, degrees from +x towards +y, by which the record is rotated about z
-    start : float, s, when the record's time 0 is
-    baseline : see :class:`GroundMotion`
+    levels : tuple of LevelRecord or None
+        Records by height, in place of a single one.
+    scale : float
+        Multiplies accelerations.
+    direction_deg : float
+        Degrees from +x towards +y, by which the record is rotated about z.
+    start : float, s
+        When the record's time 0 is.
+    baseline : {"none", "parabolic"}
+        See :class:`GroundMotion`.
     """
 
     levels: Annotated[tuple[LevelRecord, ...], Field(min_length=2)] | None = None
@@ -95,7 +100,8 @@ class Earthquake(RecordFile):
 
         Raises
         ------
-        InputError : a file that cannot be used, or levels that differ in their times
+        InputError
+            A file that cannot be used, or levels that differ in their times.
         """
         if self.levels is None:
             record, cautions = self.read()

@@ -44,13 +44,16 @@ def read_columns(path: Path, unit: Unit, components: Sequence[Axis]) -> Accelero
 
     Parameters
     ----------
-    unit : of the accelerations
-    components : axis of each column after the time's
+    unit : {"m_per_s2", "cm_per_s2", "g"}
+        Of the accelerations.
+    components : sequence of {"x", "y", "z"}
+        Axis of each column after the time's.
 
     Raises
     ------
-    InputError : a missing, empty or truncated file; a cell that is not a number; times that do not
-        rise or leave a gap; an axis named twice
+    InputError
+        A missing, empty or truncated file; a cell that is not a number; times that do not rise or
+        leave a gap; an axis named twice.
     """
     check_components(components)
     values, _, text = read_time_columns(path, 1 + len(components))
@@ -65,7 +68,8 @@ def check_components(components: Sequence[str]) -> None:
 
     Raises
     ------
-    InputError : with what was named
+    InputError
+        With what was named.
     """
     unknown = set(components) - set(AXES)
     if unknown or not components or len(set(components)) < len(components):
@@ -91,7 +95,8 @@ def read_at2(path: Path) -> tuple[float, Array, str]:
 
     Raises
     ------
-    InputError : no such header, another unit, a cell that is not a number, or a wrong count
+    InputError
+        No such header, another unit, a cell that is not a number, or a wrong count.
     """
     text = read_text(path)
     lines = text.splitlines()
@@ -134,7 +139,8 @@ def read_at2_components(paths: Mapping[Axis, Path]) -> Accelerogram:
 
     Raises
     ------
-    InputError : as in :func:`read_at2`; intervals that differ
+    InputError
+        As in :func:`read_at2`; intervals that differ.
     """
     check_components(list(paths))
     read = {axis: read_at2(path) for axis, path in paths.items()}

@@ -63,7 +63,8 @@ class LoadHistory:
 
         Raises
         ------
-        InputError : samples that do not reach from 0 to the end
+        InputError
+            Samples that do not reach from 0 to the end.
         """
         if self.time[0] > 0 or self.time[-1] < end - 1e-9:
             raise InputError(
@@ -133,7 +134,8 @@ def constant_load(yaw_bearing: float, load: Array) -> TowerTopLoad:
 
     Raises
     ------
-    InputError : not six finite numbers
+    InputError
+        Not six finite numbers.
     """
     load = np.asarray(load, dtype=float)
     if load.shape != (6,) or not np.all(np.isfinite(load)):
@@ -155,8 +157,9 @@ def read_load_history(path: Path) -> LoadHistory:
 
     Raises
     ------
-    InputError : missing, empty or truncated file; a cell that is not a number; times that do not
-        rise, or leave a gap; loads beyond those of any turbine
+    InputError
+        Missing, empty or truncated file; a cell that is not a number; times that do not rise, or
+        leave a gap; loads beyond those of any turbine.
     """
     values, lines, text = read_time_columns(path, 7)
     load = values[:, 1:]

@@ -33,9 +33,10 @@ class Accelerations:
 
     Attributes
     ----------
-    time : (n,) in s
-    names : c names of the channels
-    values : (n, c) in m/s2
+    time : (n,) array, s
+    names : tuple of str
+        c names of the channels.
+    values : (n, c) array, m/s2
     """
 
     time: Array
@@ -54,7 +55,8 @@ class Accelerations:
 
         Raises
         ------
-        InputError : a name that is not there
+        InputError
+            A name that is not there.
         """
         missing = [name for name in names if name not in self.names]
         if missing or not names:
@@ -71,14 +73,16 @@ def read_accelerations(path: Path | str, factor: float | None = None) -> Acceler
 
     Parameters
     ----------
-    factor : turns the file's unit into m/s2, such as 9.80665 for g; 1 states that it is m/s2.
-        Without it, channels that look like g are refused
+    factor : float, optional
+        Turns the file's unit into m/s2, such as 9.80665 for g; 1 states that it is m/s2. Without
+        it, channels that look like g are refused.
 
     Raises
     ------
-    InputError : no such file, no header, names twice, a cell that is no finite number, times that
-        do not rise evenly, missing rows, fewer than 64 rows, a channel that does not move, or one
-        that seems to be in g
+    InputError
+        No such file, no header, names twice, a cell that is no finite number, times that do not
+        rise evenly, missing rows, fewer than 64 rows, a channel that does not move, or one that
+        seems to be in g.
     """
     path = Path(path)
     if factor is not None and not (np.isfinite(factor) and factor > 0):

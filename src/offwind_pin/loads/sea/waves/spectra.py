@@ -34,8 +34,10 @@ class WaveSpectrum(Definition):
 
     Attributes
     ----------
-    significant_height : float, m, four times the root of its area
-    peak_period : float, s, or None where there is no peak
+    significant_height : float, m
+        Four times the root of its area.
+    peak_period : float, s
+        Or None where there is no peak.
     """
 
     if TYPE_CHECKING:  # fields of some spectra, properties of others
@@ -71,7 +73,8 @@ class JonswapSpectrum(WaveSpectrum, kw_only=False):
     ----------
     significant_height : float, m
     peak_period : float, s
-    peak_shape : float from 1 to 7, or ``"iec"`` for IEC's rule
+    peak_shape : PeakShape
+        Float from 1 to 7, or ``"iec"`` for IEC's rule.
     """
 
     kind: Literal["jonswap"] = Field(default="jonswap", kw_only=True)
@@ -191,7 +194,8 @@ class TableSpectrum(WaveSpectrum, kw_only=False):
 
         Raises
         ------
-        InputError : a file, or a table in it, that cannot be used
+        InputError
+            A file, or a table in it, that cannot be used.
         """
         if self.file is None:
             return np.array(self.frequency), np.array(self.ordinate)

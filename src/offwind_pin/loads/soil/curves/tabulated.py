@@ -35,7 +35,8 @@ def tabulated_curves(
 
     Raises
     ------
-    InputError : a table that cannot be read, or that has no curve in a layer
+    InputError
+        A table that cannot be read, or that has no curve in a layer.
     """
     curves = _read_table(path, columns, read_numbers(path, columns))
     grid = np.unique(np.concatenate([[0.0], *(y for y, _ in curves.values())]))
@@ -64,7 +65,8 @@ def soil_curves(curve: LinearModulus | TanhCurve | CurveTable, depth: Array) -> 
 
     Raises
     ------
-    InputError : a table that cannot be read
+    InputError
+        A table that cannot be read.
     """
     if isinstance(curve, LinearModulus):
         return LinearCurves(curve.modulus.at(depth))
@@ -78,7 +80,8 @@ def tabulated_curve(path: Path, columns: tuple[str, str]) -> SoilCurve:
 
     Raises
     ------
-    InputError : a table that cannot be read
+    InputError
+        A table that cannot be read.
     """
     rows = [(line, (0.0, *pair)) for line, pair in read_numbers(path, columns)]
     y, p = _read_table(path, ("depth_m", *columns), rows)[0.0]
