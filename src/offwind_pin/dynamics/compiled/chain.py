@@ -18,7 +18,8 @@ from offwind_pin.base.kernels import announce
 from offwind_pin.base.records import Count, Record
 from offwind_pin.dynamics.acting_loads import all_loads, base_excitation_of, smooth_ramp
 from offwind_pin.dynamics.base_excitation import GROUND_NUMBERS
-from offwind_pin.dynamics.compiled.assembly import make_model
+from offwind_pin.dynamics.compiled.assembly import addresses, make_model
+from offwind_pin.dynamics.compiled.ground import ground_power
 from offwind_pin.dynamics.compiled.model import Data, Factorisation, Model, State
 from offwind_pin.dynamics.compiled.newton_matrix import (
     factorise,
@@ -36,15 +37,22 @@ from offwind_pin.dynamics.compiled.recorder import (
     make_segments,
     make_soil_nodes,
 )
-from offwind_pin.dynamics.compiled.recording import at_cuts, note_kernel, take_note
-from offwind_pin.dynamics.compiled.residual import commit, evaluate, evaluate_kernel
+from offwind_pin.dynamics.compiled.recording import (
+    add_energies,
+    at_cuts,
+    imbalances,
+    note_kernel,
+    record_motion,
+    store_energies,
+    take_note,
+)
+from offwind_pin.dynamics.compiled.residual import commit, evaluate, state_kernel
 from offwind_pin.dynamics.resting_axis import RestingAxis
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.earthquake.ground_motion import GroundMotion
 from offwind_pin.loads.point_load import PointLoad
 from offwind_pin.loads.root_restraint import FREE
 from offwind_pin.solvers import generalized_alpha
-from offwind_pin.solvers.generalized_alpha import residual as evaluated
 from offwind_pin.structure.chain import NDArrayInt
 
 if TYPE_CHECKING:
@@ -234,10 +242,15 @@ class CompiledChain:
         self, sections: tuple[Cuts, Segments], every: int = 1, records: int = 1
     ) -> Recorder:
         """An empty recorder of every n-th step, for a number of records."""
+        each_step = [*([] if self.ground_motion is None else [ground_power]), add_energies]
+        each_record = [record_motion, *([imbalances] if len(sections[1].cut) else [])]
+        each_record.append(store_energies)
         kernels = Kernels(
             energies=self._energies,
             commit=commit.address if self._committing else 0,
             at_cuts=at_cuts.address,
+            each_step=addresses(each_step),
+            each_record=addresses(each_record),
         )
         return make_recorder(self.model, *sections, self.soil, kernels, every, records)
 
@@ -311,7 +324,7 @@ class CompiledChain:
                 load.raise_failure()
 
 
-_evaluate, _factorise = evaluate_kernel.call, factorise_kernel.call
+_evaluate, _factorise = state_kernel.call, factorise_kernel.call
 _solve, _take_note = solve_kernel.call, note_kernel.call
 
 
@@ -337,7 +350,7 @@ def _overload_factorise(
     system: Any, row: Any, q: Any, v: Any, a: Any, dv_dq: Any, da_dq: Any
 ) -> Any:
     def of_run(system: Any, row: Any, q: Any, v: Any, a: Any, dv_dq: Any, da_dq: Any) -> Any:
-        evaluated(system, row, q, v, a)
+        # the residual of this state was evaluated last, and its data with it
         arguments = (system.model, system.data, system.state, system.factors, row, dv_dq, da_dq)
         _factorise(system.factorise, arguments)
 

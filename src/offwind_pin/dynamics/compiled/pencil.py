@@ -6,7 +6,7 @@ import numpy as np
 
 from offwind_pin.base.definition import Array
 from offwind_pin.dynamics.compiled.chain import CompiledChain
-from offwind_pin.dynamics.compiled.matrix_products import multiply
+from offwind_pin.dynamics.compiled.matrix_products import MatrixProducts
 from offwind_pin.dynamics.compiled.model import Factorisation
 from offwind_pin.dynamics.compiled.newton_matrix import assemble
 from offwind_pin.solvers.eigen import lowest_modes
@@ -26,7 +26,7 @@ class CompiledPencil:
         self._time_inputs = chain.mean_inputs()
         self._q, self._rest = q, np.zeros_like(q)
         chain.residual(self._time_inputs, q, self._rest, self._rest)
-        self._factors: dict[tuple[float, float], Factorisation] = {}
+        self._products: dict[tuple[float, float], MatrixProducts] = {}
         self._shift: float | None = None
 
     def stiffness_times(self, vectors: Array) -> Array:
@@ -36,7 +36,7 @@ class CompiledPencil:
     def symmetric_stiffness_times(self, vectors: Array) -> Array:
         """(nv, n) of the same shape, by the symmetric part of the stiffness."""
         straight = self._times(vectors, 0.0, 0.0)
-        return (straight + self._times(vectors, 0.0, 0.0, transposed=1)) / 2
+        return (straight + self._times(vectors, 0.0, 0.0, transposed=True)) / 2
 
     def mass_times(self, vectors: Array) -> Array:
         """(nv, n) of the same shape."""
@@ -83,16 +83,19 @@ class CompiledPencil:
         self._chain.factorise(*arguments)
         self._shift = shift
 
-    def _times(self, vectors: Array, dv_dq: float, da_dq: float, *, transposed: int = 0) -> Array:
+    def _times(
+        self, vectors: Array, dv_dq: float, da_dq: float, *, transposed: bool = False
+    ) -> Array:
         chain, key = self._chain, (dv_dq, da_dq)
-        if key not in self._factors:
-            self._factors[key] = Factorisation.of(chain.model)
-            arguments = (chain.model, chain.data, chain.state, self._factors[key])
+        if key not in self._products:
+            factors = Factorisation.of(chain.model)
+            arguments = (chain.model, chain.data, chain.state, factors)
             with chain.running():
                 assemble(*arguments, self._time_inputs, dv_dq, da_dq)
-        rows = np.ascontiguousarray(np.atleast_2d(vectors.T), dtype=float)
-        products = np.empty_like(rows)
-        multiply(
-            chain.model, chain.data, self._factors[key], dv_dq, da_dq, transposed, rows, products
-        )
-        return products.T.reshape(vectors.shape)
+            self._products[key] = MatrixProducts(
+                chain.model, chain.data, factors.articulated, dv_dq, da_dq
+            )
+        times = self._products[key].times
+        if vectors.ndim == 1:
+            return times(vectors, transposed=transposed)
+        return np.column_stack([times(vector, transposed=transposed) for vector in vectors.T])
