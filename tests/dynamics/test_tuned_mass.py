@@ -21,8 +21,6 @@ from offwind_pin.definitions.element import Element
 from offwind_pin.definitions.soil.springs import Soil
 from offwind_pin.definitions.turbine import PointMass
 from offwind_pin.display.figures.results import mode_shapes
-from offwind_pin.display.viewer.mode_motion import PEAK_SHARE, mode_motion
-from offwind_pin.display.viewer.mode_page import animate
 from offwind_pin.dynamics.compiled.chain import CompiledChain
 from offwind_pin.loads.tower_top.load_history import TowerTopLoad
 from offwind_pin.structure.pinocchio_model import build_model
@@ -39,12 +37,15 @@ def damped(undamped: ow.Turbine) -> ow.System:
     return ow.build(several(undamped), "coupled_springs", elements=8)
 
 
-def let_go(system: ow.System, duration: float, dt: float, **keys: object) -> xr.Dataset:
+def let_go(
+    system: ow.System, duration: float, dt: float, save_at: ow.SaveAt | None = None, **keys: object
+) -> xr.Dataset:
     """Free motion from the static state under a load at the top, which is then gone."""
     load = TowerTopLoad(system.chain.top, NOTHING, PUSH)
     method = GeneralizedAlpha(ow.FixedStep(dt), 1.0, 1e-11, 1e-12)
-    settings: dict[str, object] = {"loads": [load], "integrator": method, "heights": [20.0]}
-    return ow.simulate(system, duration, **(settings | keys))  # type: ignore[arg-type]
+    settings: dict[str, object] = {"loads": [load], "integrator": method}
+    save_at = save_at or ow.SaveAt(heights=[20.0])
+    return ow.simulate(system, duration, save_at=save_at, **(settings | keys))  # type: ignore[arg-type]
 
 
 def test_a_tilted_mass_hangs_in_its_spring(damped: ow.System) -> None:
@@ -163,7 +164,7 @@ def test_energy_closes_in_a_free_decay(damped: ow.System) -> None:
     """Stored, dissipated and worked: to second order in dt, with most of the motion made heat."""
     steps, errors = [0.02, 0.01, 0.005], []
     for dt in steps:
-        data = let_go(damped, 20.0, dt, output_dt=0.2)
+        data = let_go(damped, 20.0, dt, ow.SaveAt(0.2))
         errors.append(float(np.abs(data["energy_balance"]).max()))
     heat = data["energy_dissipated"].sel(sink="joint_dampers")[-1].item()
     assert fitted_order(steps, errors) == pytest.approx(2.0, abs=0.1)
@@ -175,7 +176,7 @@ def test_without_damper_energy_is_kept(undamped: ow.Turbine) -> None:
     """A spring alone exchanges energy and loses none; the mass moves more than its carrier."""
     free = damper("a", 115.63, "both", frequency_hz=0.25, damping_ratio=0.0)
     system = ow.build(with_dampers(undamped, free), "clamped", elements=5)
-    data = let_go(system, 40.0, 0.01, output_dt=0.1)
+    data = let_go(system, 40.0, 0.01, ow.SaveAt(0.1))
     kinetic = data["energy_stored"].sel(holder="kinetic").max().item()
     assert np.all(data["energy_dissipated"] == 0)
     assert np.abs(data["energy_balance"]).max() < 1e-4 * kinetic
@@ -198,7 +199,7 @@ def test_segments_are_in_equilibrium(undamped: ow.Turbine) -> None:
         1e6 - sum(m.mass for m in undamped.point_masses) + 9e5, rel=1e-9
     )
     ends = [(-75.0, 115.63), (-30.0, 115.63), (-75.0, -30.0), (20.0, 50.0), (-60.0, 20.0)]
-    data = let_go(system, 2.0, 0.05, output_dt=0.05, segments=ends)
+    data = let_go(system, 2.0, 0.05, ow.SaveAt(heights=[20.0], segments=ends))
     assert np.abs(data["section_force"]).max() > 1e7
     assert np.abs(data["segment_imbalance"]).max() < 1e-3
 
@@ -298,7 +299,7 @@ def test_foundations_take_dampers(undamped: ow.Turbine) -> None:
 
 def test_a_stopped_run_goes_on(damped: ow.System, tmp_path: Path) -> None:
     """To bitwise the same results, the dampers' displacements among them."""
-    keys = {"output_dt": 0.5, "duration": 50.0, "dt": 0.05}
+    keys = {"save_at": ow.SaveAt(0.5, heights=[20.0]), "duration": 50.0, "dt": 0.05}
     whole = let_go(damped, **keys, directory=tmp_path / "whole")  # type: ignore[arg-type]
 
     def stop(now: float) -> None:
@@ -323,7 +324,7 @@ def test_travel_is_watched(
         damper("long", 110.0, "both", travel_m=50.0, **tuning),
         damper("any", 100.0, "both", **tuning),
     )
-    data = let_go(ow.build(turbine, "clamped", elements=4), 45.0, 0.05, output_dt=0.1)
+    data = let_go(ow.build(turbine, "clamped", elements=4), 45.0, 0.05, ow.SaveAt(0.1))
     told = [record.getMessage() for record in caplog.records]
     assert [text for text in told if "short" in text] == told
     assert len(told) == 1
@@ -370,26 +371,10 @@ def test_no_damper_changes_nothing(undamped: ow.Turbine) -> None:
     assert "tuned_mass_displacement" not in ow.simulate(system, 0.1, 0.05)
 
 
-def test_it_is_shown(damped: ow.System) -> None:
-    """The animated page and the plot of the shapes take a damper's mode."""
-    result = ow.modes(damped, 8)
-    assert "TMD1" in result.label
-    page = animate(damped, result, "TMD1")
-    assert "first tuned mass damper" in page
-    of_top = damped.chain.joint_name.index("zz_tmd_nacelle_px")
-    label = result.label[int(np.argmax(np.abs(result.vector[of_top])))]
-    motion = mode_motion(damped, result, label)
-    offset = damped.chain.top - damped.chain.origin[-1]
-    carried = motion.poses[:, -1, :3, 3] + offset * motion.poses[:, -1, :3, 2]
-    slid = np.linalg.norm(motion.sliding[:, 0, :3, 3] - carried, axis=1)
-    height = damped.chain.top - damped.chain.base
-    assert 0.2 * PEAK_SHARE * height < slid.max() <= PEAK_SHARE * height * 1.01
-    assert np.abs(motion.sliding[0] - motion.sliding[-1]).max() < 1e-9
-    labels = [
-        text.get_text()
-        for axes in mode_shapes(result, damped.turbine.site.mudline).axes
-        for text in axes.get_legend().get_texts()
-    ]
+def test_plot_of_the_shapes_has_it(damped: ow.System) -> None:
+    """As a mode of its own."""
+    figure = mode_shapes(ow.modes(damped, 8), damped.turbine.site.mudline)
+    labels = [text.get_text() for axes in figure.axes for text in axes.get_legend().get_texts()]
     assert any(text.startswith("TMD1") for text in labels)
 
 
@@ -433,7 +418,7 @@ def test_overview_names_the_dampers(undamped: ow.Turbine) -> None:
 
 
 def test_a_mode_that_moves_nothing_else(undamped: ow.Turbine) -> None:
-    """That of a damper on a clamped base: its own frequency, an axis at rest, and a picture."""
+    """That of a damper on a clamped base: its own frequency and damping, an axis at rest."""
     own = damper("a", undamped.site.mudline, "fore_aft", frequency_hz=0.15, damping_ratio=0.2)
     system = ow.build(with_dampers(undamped, own), "clamped", elements=5)
     result = ow.modes(system, 3)
@@ -441,10 +426,6 @@ def test_a_mode_that_moves_nothing_else(undamped: ow.Turbine) -> None:
     assert result.frequency_hz[0] == pytest.approx(0.15, rel=1e-9)
     assert result.damping_ratio[0] == pytest.approx(0.2, rel=1e-9)
     assert np.abs(result.mass_normalised[0]).max() < 1e-9
-    motion = mode_motion(system, result, "TMD1")
-    assert np.all(np.isfinite(motion.share))
-    height = system.chain.top - system.chain.base
-    assert np.abs(motion.sliding[:, 0, 0, 3]).max() == pytest.approx(PEAK_SHARE * height, rel=1e-6)
 
 
 def test_a_case_s_summary_has_the_largest_motion(oc6: ow.Turbine, tmp_path: Path) -> None:
@@ -457,7 +438,7 @@ def test_a_case_s_summary_has_the_largest_motion(oc6: ow.Turbine, tmp_path: Path
     found = []
     for kind in kinds:
         system = ow.build(kind, "clamped", elements=6)
-        data = ow.simulate(system, 20.0, 0.1, [history], heights=[0.0])
+        data = ow.simulate(system, 20.0, 0.1, [history], save_at=ow.SaveAt(heights=[0.0]))
         found.append((summarise_dampers(data), data))
     (row,) = found[0][0]["tuned_mass_dampers"]
     slips = found[0][1]["tuned_mass_displacement"].to_numpy()

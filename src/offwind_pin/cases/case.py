@@ -10,6 +10,7 @@ from pydantic import AfterValidator, BeforeValidator, Field, ValidationInfo, mod
 from offwind_pin.analysis.build import build
 from offwind_pin.analysis.foundation.registry import FOUNDATIONS
 from offwind_pin.base.definition import Definition, NonNegative, Number, Positive, Seed, key
+from offwind_pin.base.input_files import is_file
 from offwind_pin.cases.schema.tower_top import TowerTopLoadChoice
 from offwind_pin.cases.shipped import shipped_cases
 from offwind_pin.definitions.element import Element
@@ -18,6 +19,7 @@ from offwind_pin.definitions.reader import find_definition, load_turbine, read_d
 from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.earthquake.earthquake import Earthquake
+from offwind_pin.loads.load_definition import LoadDefinition
 from offwind_pin.loads.sea.sea import DrySea, Sea
 from offwind_pin.loads.sea.seas import SeaChoice
 from offwind_pin.loads.wind.tower_drag import TowerWind
@@ -35,7 +37,7 @@ def _load_turbine(value: Any, info: ValidationInfo) -> Any:
     if not isinstance(value, str | Path):
         return value
     local = Path((info.context or {}).get("folder", "")) / value
-    return load_turbine(local if local.is_file() else value)
+    return load_turbine(local if is_file(local) else value)
 
 
 FoundationName = Annotated[str, AfterValidator(_known_foundation)]
@@ -169,9 +171,9 @@ class Case(Definition):
             return self
         loads = {
             "tower_top_load": self.tower_top_load is not None,
-            "tower_wind": self.tower_wind is not None,
             "earthquake": self.earthquake is not None,
             self.sea.kind: isinstance(self.sea, Sea) and self.sea.has_waves,
+            **dict.fromkeys(self.loads, True),
         }
         given = [name for name, is_there in loads.items() if is_there]
         if given:
@@ -180,6 +182,12 @@ class Case(Definition):
                 "out, or use analysis kind transient"
             )
         return self
+
+    @property
+    def loads(self) -> dict[str, LoadDefinition]:
+        """Loads that make themselves for a structure, by their keys."""
+        given = {name: getattr(self, name) for name in type(self).model_fields}
+        return {name: load for name, load in given.items() if isinstance(load, LoadDefinition)}
 
     @property
     def water(self) -> Sea | None:

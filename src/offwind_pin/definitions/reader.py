@@ -12,6 +12,7 @@ from pydantic import ValidationError
 
 from offwind_pin.base.definition import Definition
 from offwind_pin.base.errors import InputError
+from offwind_pin.base.input_files import is_file
 from offwind_pin.base.validation import input_error
 from offwind_pin.definitions.shipped import shipped_turbines
 from offwind_pin.definitions.turbine import Turbine
@@ -44,7 +45,7 @@ def find_definition(name_or_path: str | Path, shipped: list[str], kind: str) -> 
         with resources.as_file(resources.files("offwind_pin")) as package:
             return Path(package) / folder / f"{text.removeprefix('oc6-')}.yaml"
     path = Path(text)
-    if path.is_file():
+    if is_file(path):
         return path
     near = difflib.get_close_matches(text, shipped, n=1)
     hint = f"Did you mean {near[0]!r}?" if near else "Check the path."

@@ -66,7 +66,12 @@ class Member(Definition):
     def _stations_rise(self) -> Member:
         heights = [station.z for station in self.stations]
         for lower, upper in itertools.pairwise(heights):
-            if upper <= lower:
+            if upper == lower:
+                raise ValueError(
+                    f"two stations are at z_m = {upper}; stations must rise strictly in z_m: for a "
+                    "step of diameter or wall begin another member there, or remove one of the two"
+                )
+            if upper < lower:
                 raise ValueError(
                     f"stations must rise strictly in z_m, but {upper} follows {lower}; "
                     "sort them from the lowest to the highest"

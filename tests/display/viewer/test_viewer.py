@@ -17,11 +17,13 @@ import offwind_pin as ow
 from offwind_pin.analysis.drawing_data import modes_dataset, static_dataset
 from offwind_pin.base.mode_labels import mode_family
 from offwind_pin.base.whole_files import write_netcdf
-from offwind_pin.display.viewer import stills as pictures
+from offwind_pin.display.viewer import picture as pictures
 from offwind_pin.display.viewer.history_frames import frames
 from offwind_pin.display.viewer.history_page import ARROW_SHARE, TOP_COLOUR
+from offwind_pin.display.viewer.history_picture import HistoryPicture
 from offwind_pin.display.viewer.mode_frames import PEAK_TILT, shapes
-from offwind_pin.display.viewer.stills import HistoryPicture, ModesPicture, write_frames
+from offwind_pin.display.viewer.modes_picture import ModesPicture
+from offwind_pin.display.viewer.picture import write_frames
 from offwind_pin.display.viewer.view import View
 
 
@@ -36,7 +38,7 @@ def history(undamped: ow.Turbine) -> xr.Dataset:
     sea = ow.RegularWaves(6.0, 8.0, direction_deg=60.0)
     system = ow.build(undamped, "distributed_springs", sea, elements=10)
     load = np.array([9e5, -4e5, 2e5, 0, 0, 0])
-    return ow.simulate(system, 12.0, 0.05, [load], ramp=4.0, output_dt=0.2)
+    return ow.simulate(system, 12.0, 0.05, [load], ramp=4.0, save_at=ow.SaveAt(0.2))
 
 
 @pytest.fixture(scope="module")

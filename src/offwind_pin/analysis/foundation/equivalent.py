@@ -226,7 +226,7 @@ def _surrogate(turbine: Turbine, source: StiffnessSource | None) -> str | None:
 
 def _read_path(file: Path) -> tuple[Array, Array, Array]:
     """Load in N, displacement in m and rotation in rad of a loading, without its start."""
-    rows = np.array([row for _, row in read_numbers(file, _COLUMNS)])
+    rows = read_numbers(file, _COLUMNS).values
     loaded = rows[np.any(rows != 0, axis=1)]
     if len(loaded) == 0:
         raise InputError(

@@ -12,13 +12,13 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from offwind_pin.base.errors import InputError
-from offwind_pin.base.number_tables import read_text
+from offwind_pin.base.input_files import read_text
+from offwind_pin.base.number_tables import parse_number
 from offwind_pin.base.whole_files import write_text
 
 Array = NDArray[np.float64]
@@ -240,12 +240,9 @@ def _numbers(path: Path, lines: dict[int, str], line: int, count: int) -> Array:
     return np.array([_number(where, word) for word in words[:count]])
 
 
-def _number(where: str, word: Any) -> float:
+def _number(where: str, word: str) -> float:
     """A number as Fortran writes it: 1.0D3 is 1000."""
-    try:
-        value = float(re.sub("[dD]", "E", word))
-    except ValueError:
-        value = np.nan
-    if not np.isfinite(value):
+    value = parse_number(re.sub("[dD]", "E", word))
+    if value is None:
         raise InputError(where, word, "a finite number", "Correct it.")
     return value

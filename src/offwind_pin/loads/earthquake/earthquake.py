@@ -40,7 +40,10 @@ class RecordFile(Definition):
                 "at2 (files by axis)"
             )
         if self.at2 is not None and (self.acceleration_unit or self.components):
-            raise ValueError("at2 files are in g, by axis; leave acceleration_unit and components")
+            raise ValueError(
+                "at2 files name their unit and are given by axis; leave acceleration_unit and "
+                "components out"
+            )
         if self.file is not None and not (self.acceleration_unit and self.components):
             raise ValueError(
                 "the file's unit or axes are missing; give acceleration_unit (m_per_s2, cm_per_s2 "

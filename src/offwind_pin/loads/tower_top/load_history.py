@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
-import hashlib
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from offwind_pin.base.definition import Array
+from offwind_pin.base.channels import Channel
+from offwind_pin.base.definition import Array, origin_of
 from offwind_pin.base.errors import InputError
 from offwind_pin.base.number_tables import read_time_columns
-from offwind_pin.loads.point_load import Channel, KernelLoad, force_kernel, no_tangents
+from offwind_pin.loads.point_load import KernelLoad, force_kernel, no_tangents
 
 COMPONENTS = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
 LARGEST_LOAD = 1e10
 """N or N m, beyond the loads of any turbine."""
+_COARSEST, _SAMPLED = 0.99, 1000
+"""Step in s beyond which files of more than so many rows are more likely in ms."""
+
+TOWER_TOP_LOAD = Channel(
+    "tower_top_load", ("component",), "N for F, N m for M", "load applied at the yaw bearing"
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,11 +125,10 @@ class TowerTopLoad(KernelLoad):
 
     @property
     def channels(self) -> tuple[Channel, ...]:
-        about = "load applied at the yaw bearing"
-        return (Channel("tower_top_load", ("component",), "N for F, N m for M", about),)
+        return (TOWER_TOP_LOAD,)
 
     def outputs(self, time: Array, ramp_factor: Array) -> dict[str, Array]:
-        return {"tower_top_load": self.time_inputs(time, ramp_factor)}
+        return {TOWER_TOP_LOAD.name: self.time_inputs(time, ramp_factor)}
 
     def attributes(self) -> dict[str, str]:
         return {"tower_top_load_origin": self.history.origin}
@@ -158,19 +163,18 @@ def read_load_history(path: Path) -> LoadHistory:
     Raises
     ------
     InputError
-        Missing, empty or truncated file; a cell that is not a number; times that do not rise, or
-        leave a gap; loads beyond those of any turbine.
+        Missing, empty or truncated file; a cell that is not a number; times that do not rise, leave
+        a gap, or are not in s; loads beyond those of any turbine.
     """
-    values, lines, text = read_time_columns(path, 7)
-    load = values[:, 1:]
+    table = read_time_columns(path, 7, coarsest=_COARSEST, sampled=_SAMPLED)
+    load = table.values[:, 1:]
     beyond = np.flatnonzero(np.max(np.abs(load), axis=1) > LARGEST_LOAD)
     if len(beyond):
         row = load[beyond[0]]
         raise InputError(
-            f"{path}, line {lines[beyond[0]]}",
+            f"{path}, line {table.lines[beyond[0]]}",
             row[np.argmax(np.abs(row))],
             f"loads below {LARGEST_LOAD:g} N or N m",
             "Are the units N and N m?",
         )
-    digest = hashlib.sha256(text.encode()).hexdigest()
-    return LoadHistory(values[:, 0], load, origin=f"{path.name} (SHA-256 {digest})")
+    return LoadHistory(table.values[:, 0], load, origin_of(path))

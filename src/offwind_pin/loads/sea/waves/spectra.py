@@ -199,13 +199,13 @@ class TableSpectrum(WaveSpectrum, kw_only=False):
         """
         if self.file is None:
             return np.array(self.frequency), np.array(self.ordinate)
-        rows = [row for _, row in read_numbers(self.file, ("frequency_hz", "density_m2_per_hz"))]
-        frequency, ordinate = zip(*rows, strict=True)
-        fault = _fault_of_table(frequency, ordinate)
+        table = read_numbers(self.file, ("frequency_hz", "density_m2_per_hz"))
+        frequency, ordinate = table.values.T
+        fault = _fault_of_table(tuple(frequency), tuple(ordinate))
         if fault is not None:
             remedy = f"{fault[1][:1].upper()}{fault[1][1:]}."
             raise InputError(str(self.file), fault[0], "", remedy)
-        return np.array(frequency), np.array(ordinate)
+        return frequency, ordinate
 
     @property
     def significant_height(self) -> float:
