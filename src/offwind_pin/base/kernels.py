@@ -47,7 +47,7 @@ _UNUSED = {
 """Steps of Numba's compiler for closures, literals, and expressions of whole arrays."""
 
 
-class _KnownFlags(Flags):  # type: ignore[no-untyped-call]
+class _KnownFlags(Flags):
     """Compiler flags whose values are listed once: Numba compares them thousands of times."""
 
     @cached_property
@@ -85,7 +85,7 @@ def kernel(function: Function) -> Function:
 def inner(function: Function) -> Function:
     """The same for a function that only other kernels call; it makes no arrays."""
     with _own_cache():
-        return cast("Function", njit(no_cpython_wrapper=True, **_LEAN)(function))
+        return cast("Function", njit(**(_LEAN | {"no_cpython_wrapper": True}))(function))
 
 
 class ExchangeableKernel:

@@ -103,10 +103,7 @@ def make_model(
         first_memory=_beginnings(sizes),
         forces=addresses([load.force_kernel for load in loads]),
         tangents=addresses(
-            [
-                None if load.tangent_kernel is no_tangents else load.tangent_kernel
-                for load in loads
-            ]
+            [None if load.tangent_kernel is no_tangents else load.tangent_kernel for load in loads]
         ),
         commits=addresses(
             [None if load.commit_kernel is nothing_kept else load.commit_kernel for load in loads]

@@ -295,7 +295,7 @@ FACTORISATION = Factorisation.numba_type()
 ROW: Any = types.float64[::1]
 
 evaluation_kernel = exchangeable(types.void(MODEL, DATA, STATE, ROW), python=False)
-"""Decorator for ``kernel(model, data, state, time_inputs)``: a part of the evaluation of a state."""
+"""Decorator for ``kernel(model, data, state, time_inputs)``: a part of evaluating a state."""
 matrix_kernel = exchangeable(
     types.void(MODEL, DATA, STATE, FACTORISATION, ROW, types.float64, types.float64), python=False
 )

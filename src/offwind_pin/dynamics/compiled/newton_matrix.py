@@ -18,11 +18,9 @@ from offwind_pin.base.definition import Array
 from offwind_pin.base.kernels import exchangeable, inner
 from offwind_pin.base.records import clear, matrix, part, stack_matrix, stack_row
 from offwind_pin.dynamics.compiled.model import (
-    DATA,
     FACTORISATION,
     MODEL,
     ROW,
-    STATE,
     Data,
     Factorisation,
     Model,
@@ -298,7 +296,9 @@ def load_tangents(
                 model.tangents[i],
                 (
                     part(data.motion, first, last),
-                    matrix(model.constants, model.first_constant[i], last - first, model.columns[i]),
+                    matrix(
+                        model.constants, model.first_constant[i], last - first, model.columns[i]
+                    ),
                     part(time_inputs, model.first_input[i], model.first_input[i + 1]),
                     part(state.memory, model.first_memory[i], model.first_memory[i + 1]),
                     blocks,

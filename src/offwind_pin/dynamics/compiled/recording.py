@@ -57,10 +57,8 @@ note_kernel = exchangeable(
     types.void(MODEL, DATA, STATE, RECORDER, ROW, types.intp, types.float64), nogil=True
 )
 record_kernel = exchangeable(types.void(MODEL, DATA, STATE, RECORDER), python=False)
-"""Decorator for ``kernel(model, data, state, recorder)``: a part of a step's or a record's notes."""
-tmd_between_kernel = exchangeable(
-    _VECTORS(MODEL, DATA, types.float64, types.float64), python=False
-)
+"""Decorator for ``kernel(model, data, state, recorder)``: a part of a step's or record's notes."""
+tmd_between_kernel = exchangeable(_VECTORS(MODEL, DATA, types.float64, types.float64), python=False)
 """Decorator for ``kernel(model, data, low, high)``: what dampers between two heights need."""
 tmd_energies_kernel = exchangeable(_NUMBERS(MODEL, DATA), python=False)
 """Decorator for ``kernel(model, data)``: their kinetic and gravitational energies."""
@@ -267,7 +265,9 @@ def store_energies(model: Model, data: Data, state: State, recorder: Recorder) -
                 recorder.energies[n],
                 (
                     part(data.motion, first, last),
-                    matrix(model.constants, model.first_constant[n], last - first, model.columns[n]),
+                    matrix(
+                        model.constants, model.first_constant[n], last - first, model.columns[n]
+                    ),
                     part(state.memory, model.first_memory[n], model.first_memory[n + 1]),
                 ),
             )

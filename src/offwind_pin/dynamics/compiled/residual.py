@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from numba import types
 
 from offwind_pin.base.definition import Array
@@ -118,7 +116,9 @@ def commit(model: Model, data: Data, state: State, time_inputs: Array) -> None:
                 model.commits[i],
                 (
                     part(data.motion, first, last),
-                    matrix(model.constants, model.first_constant[i], last - first, model.columns[i]),
+                    matrix(
+                        model.constants, model.first_constant[i], last - first, model.columns[i]
+                    ),
                     part(time_inputs, model.first_input[i], model.first_input[i + 1]),
                     part(memory, first_memory[i], first_memory[i + 1]),
                 ),

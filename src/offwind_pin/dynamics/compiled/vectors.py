@@ -100,9 +100,7 @@ def add_row(vector: Array, factor: float, values: Array, i: int) -> None:
 
 
 @inner
-def add_inertia(
-    matrix: Array, factor: float, mass: float, center: Vector, inertia: Array
-) -> None:
+def add_inertia(matrix: Array, factor: float, mass: float, center: Vector, inertia: Array) -> None:
     """Add a rigid body's spatial inertia about the world's origin, times a factor, to a matrix."""
     square = center[0] ** 2 + center[1] ** 2 + center[2] ** 2
     for i in range(3):
