@@ -50,7 +50,7 @@ from offwind_pin.dynamics.compiled.residual import commit, evaluate, state_kerne
 from offwind_pin.dynamics.resting_axis import RestingAxis
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.earthquake.ground_motion import GroundMotion
-from offwind_pin.loads.point_load import PointLoad
+from offwind_pin.loads.point_load import PointLoad, PointMotion
 from offwind_pin.loads.root_restraint import FREE
 from offwind_pin.solvers import generalized_alpha
 from offwind_pin.structure.chain import NDArrayInt
@@ -166,6 +166,37 @@ class CompiledChain:
         state.q[:], state.v[:], state.a[:], state.clock[0] = q, v, a, time_inputs[0]
         with self.running():
             evaluate(self.model, self.data, state, time_inputs)
+
+    def points_at(self, height: Array) -> PointMotion:
+        """Motion of points of the axis at heights (m,) in m, in the state last evaluated."""
+        chain, data = self.system.chain, self.data
+        k = chain.body_at(height)
+        rotation, spin = data.rotation[k], data.angular_velocity[k]
+        arm = (height - chain.origin[k])[:, None] * rotation[:, :, 2]
+        position = data.position[k] + arm
+        around = np.cross(spin, arm)
+        inward = np.cross(data.angular_acceleration[k], arm) + np.cross(spin, around)
+        skew = (rotation - rotation.transpose(0, 2, 1)) / 2
+        return PointMotion(
+            position=position,
+            displacement=position - np.outer(height, [0.0, 0.0, 1.0]),
+            velocity=data.velocity[k] + around,
+            axis=rotation[:, :, 2].copy(),
+            acceleration=data.acceleration[k] + inward,
+            turn=np.column_stack([skew[:, 2, 1], skew[:, 0, 2], skew[:, 1, 0]]),
+            spin=spin,
+        )
+
+    def top_jacobian(self) -> Array:
+        """(6, nv) velocity and spin of the chain's top per unit joint velocity, in that state.
+
+        Its transpose turns a force and moment there, fixed in the world, into generalised forces.
+        """
+        linear, angular = np.split(self.data.joint[: self.system.chain.axis_joints], 2, axis=1)
+        top = self.points_at(np.array([self.system.chain.top])).position[0]
+        jacobian = np.zeros((6, self.system.nv))
+        jacobian[:, : len(linear)] = np.hstack([linear + np.cross(angular, top), angular]).T
+        return jacobian
 
     @property
     def memory(self) -> Array:
