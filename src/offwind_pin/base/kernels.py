@@ -22,9 +22,11 @@ from pathlib import Path
 from typing import Any, TypeVar, cast
 
 from numba import config, njit, types
-from numba.core import cgutils, typed_passes, untyped_passes
+from numba.core import cgutils, dispatcher, typed_passes, untyped_passes
 from numba.core.compiler import CompilerBase, DefaultPassBuilder, Flags
 from numba.extending import intrinsic
+
+from offwind_pin.base.kernel_cache import KernelCache
 
 _log = logging.getLogger(__name__)
 
@@ -131,9 +133,13 @@ class KernelKind:
     def __init__(self, signature: Any, *, nogil: bool = False, python: bool = True) -> None:
         """A kind of kernels.
 
-        nogil : whether a call from Python lets other threads run; not for functions that need
-            Python
-        python : whether Python calls them, not only other kernels
+        Parameters
+        ----------
+        signature : Numba signature
+        nogil : bool
+            Whether a call from Python lets other threads run; not for functions that need Python.
+        python : bool
+            Whether Python calls them, not only other kernels.
         """
         self.signature = signature
         self.options: dict[str, Any] = {"nogil": nogil, "no_cpython_wrapper": not python}
@@ -189,13 +195,14 @@ def announce() -> None:
 
 @contextmanager
 def _own_cache() -> Iterator[None]:
-    """Numba's cache directory, ours for the kernels made in the block."""
-    before = config.CACHE_DIR  # type: ignore[attr-defined]
-    config.CACHE_DIR = str(_cache_directory())  # type: ignore[attr-defined]
+    """Numba's cache and its directory, ours for the kernels made in the block."""
+    settings, dispatchers = cast("Any", config), cast("Any", dispatcher)
+    before = settings.CACHE_DIR, dispatchers.FunctionCache
+    settings.CACHE_DIR, dispatchers.FunctionCache = str(_cache_directory()), KernelCache
     try:
         yield
     finally:
-        config.CACHE_DIR = before  # type: ignore[attr-defined]
+        settings.CACHE_DIR, dispatchers.FunctionCache = before
 
 
 @cache
