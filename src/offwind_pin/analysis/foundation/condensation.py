@@ -149,7 +149,7 @@ def condense(
     return Condensation(
         kind=stiffness,
         height=pile.chain.top,
-        stiffness=np.linalg.inv(flexibility),
+        stiffness=np.asarray(np.linalg.inv(flexibility), dtype=float),
         load=load,
         displacement=_displacement(pile, about),
     )
