@@ -212,8 +212,8 @@ def pushover_facts(soil: SoilOverview) -> list[tuple[str, str]]:
     if soil.macro_element is not None:
         load, turned = soil.macro_element[-1]
         facts += [
-            ("load of the macro-element", quantity(load / MEGA, "MN")),
-            ("rotation of the macro-element", quantity(float(np.degrees(turned)), "°")),
+            ("macro-element load there", quantity(load / MEGA, "MN")),
+            ("macro-element rotation there", quantity(float(np.degrees(turned)), "°")),
         ]
     return facts
 
@@ -270,7 +270,7 @@ def _cards(soil: SoilOverview) -> list[Card]:
         Card(
             number(push.load[-1] / MEGA, 3),
             "MN",
-            f"load at {number(push.arm, 4)} m that moves the mudline by {number(share, 2)} D",
+            f"load {number(push.arm, 4)} m above the mudline that moves it by {number(share, 2)} D",
         )
     ]
     if soil.state is not None:
@@ -278,14 +278,12 @@ def _cards(soil: SoilOverview) -> list[Card]:
             Card(
                 number(1e3 * float(soil.state.displacement.max()), 3),
                 "mm",
-                "largest displacement of a soil node",
+                "largest displacement of the pile",
             )
         )
         if np.any(np.isfinite(soil.state.utilisation)):
             worst = 100 * float(np.nanmax(soil.state.utilisation))
-            cards.append(
-                Card(number(worst, 3), "%", "largest utilisation of the ultimate resistance")
-            )
+            cards.append(Card(number(worst, 3), "%", "largest share of the ultimate resistance"))
     if soil.fixity is not None:
         diameters = soil.fixity.length / soil.head_diameter
         cards.append(

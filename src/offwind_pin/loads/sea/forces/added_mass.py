@@ -9,6 +9,7 @@ import numpy as np
 
 from offwind_pin.base.definition import Array
 from offwind_pin.base.kernels import inner
+from offwind_pin.base.records import part
 from offwind_pin.loads.point_load import (
     ACCELERATION,
     AXIS,
@@ -25,7 +26,8 @@ from offwind_pin.loads.sea.forces.strips import Strips, Water, wet_share
 _MASS, _BOTTOM, _LENGTH = range(3)
 """Columns of a strip's constants: mass in kg; with a moving surface also its ends in m."""
 _SURFACE = 0
-"""Index of the surface height in the time inputs."""
+"""Height of the surface among the time inputs."""
+_V, _E, _A = VELOCITY.start, AXIS.start, ACCELERATION.start
 
 
 @inner
@@ -36,8 +38,8 @@ def along(a: Array, b: Array) -> float:
 
 @inner
 def _resist(motion: Array, mass: float, force: Array) -> None:
-    """Set the force of a mass accelerated normal to the axis, at one point."""
-    axis, acceleration = motion[AXIS], motion[ACCELERATION]
+    """Set the force of a mass that an acceleration across the axis moves, at one point."""
+    axis, acceleration = part(motion, _E, _E + 3), part(motion, _A, _A + 3)
     slide = along(axis, acceleration)
     for j in range(3):
         force[j] = -mass * (acceleration[j] - slide * axis[j])
@@ -46,8 +48,8 @@ def _resist(motion: Array, mass: float, force: Array) -> None:
 
 @inner
 def _resist_tangents(motion: Array, mass: float, blocks: Array) -> None:
-    """Set the derivatives of that force by acceleration and axis."""
-    axis, acceleration = motion[AXIS], motion[ACCELERATION]
+    """Set its derivatives by acceleration and axis."""
+    axis, acceleration = part(motion, _E, _E + 3), part(motion, _A, _A + 3)
     slide = along(axis, acceleration)
     for j in range(3):
         for k in range(3):
@@ -78,7 +80,7 @@ def _added_mass_tangents(
 def _added_mass_energy(motion: Array, constants: Array, memory: Array) -> float:
     energy = 0.0
     for i in range(len(motion)):
-        axis, velocity = motion[i, AXIS], motion[i, VELOCITY]
+        axis, velocity = part(motion[i], _E, _E + 3), part(motion[i], _V, _V + 3)
         square = along(velocity, velocity) - along(velocity, axis) ** 2
         energy += constants[i, _MASS] * square / 2
     return energy

@@ -302,7 +302,7 @@ def law_functions(law: type[SoilCurve]) -> LawFunctions:
     Laws of the package need none, since their cache has its own folder for each state of the
     package.
     """
-    ready: Any = register_jitable(error_model="numpy")
+    ready: Any = register_jitable(error_model="numpy", _nrt=True)
     return LawFunctions(
         ready(law.secant_at), ready(law.tangent_at), ready(law.energy_at), _source(law)
     )
