@@ -145,9 +145,9 @@ def condense(
     acting = [constant_load(pile.chain.top, load)]
     chain = CompiledChain(pile, acting)
     chain.memory = about.memory
-    lack = float(np.max(np.abs(chain.residual(chain.mean_inputs(), q, rest, rest))))
-    lack /= load_scale(system)
-    if lack > _OUT_OF_BALANCE:
+    residual = float(np.max(np.abs(chain.residual(chain.mean_inputs(), q, rest, rest))))
+    residual /= load_scale(system)
+    if residual > _OUT_OF_BALANCE:
         allowed = "a static state of this system, in balance"
         raise InputError(
             "about",
