@@ -244,14 +244,23 @@ class Case(Definition):
         return self.sea.completed(self.seed, duration)
 
     def with_seed(self, seed: int) -> Case:
-        """The same case, in which everything random is drawn by one seed.
+        """The same case with one seed for everything random.
 
-        Seeds that waves or wind have of their own are dropped.
+        Separate seeds of waves and wind are dropped.
+
+        Parameters
+        ----------
+        seed : int
+            Seed of all random numbers.
+
+        Returns
+        -------
+        Case
 
         Raises
         ------
         InputError
-            A seed that cannot be used.
+            An invalid seed.
         """
         parts = {name: getattr(self, name) for name in type(self).model_fields}
         reseeded = {
