@@ -201,7 +201,7 @@ class IrregularWaves(LinearSea, kw_only=False):
             low, high = self.target.band
             return (
                 f"a repeat period of {period:g} s gives {count} components from {low:.3g} to "
-                f"{high:.3g} Hz; at least {FEWEST_COMPONENTS} are required",
+                f"{high:.3g} Hz, and at least {FEWEST_COMPONENTS} are required",
                 "lengthen it: components are 1 / repeat_period apart",
             )
         return None
