@@ -85,7 +85,7 @@ def _results_file(given: Path) -> Path:
     manifest = read_manifest(path.parent) if path.name == RESULTS else None
     digest = None if manifest is None else manifest.files.get(RESULTS)
     if digest is not None and digest != file_digest(path):
-        raise _unreadable(path, "the file was damaged or changed since the run wrote it")
+        raise _unreadable(path, "a file that was damaged or changed since the run wrote it")
     return path
 
 

@@ -12,8 +12,12 @@ from offwind_pin.results.tree import TITLES
 
 _TEXTS = ("turbine", "foundation", "sea", "root", "case", "waves", "surrogates", "status")
 _NUMBERS = ("mudline_m", "water_level_m", "ramp_s", "output_dt_s", "elements")
-_REQUIRED = {"histories": ("turbine", "foundation", "mudline_m"), "static": (), "modes": ()}
-_ALONE = {
+_REQUIRED: dict[str, tuple[str, ...]] = {
+    "histories": ("turbine", "foundation", "mudline_m"),
+    "static": (),
+    "modes": (),
+}
+_ALONE: dict[str, dict[str, tuple[str, ...]]] = {
     "static": {"displacement": ("height", "direction"), "section_moment": ("height", "direction")},
     "modes": {"frequency": ("mode",), "shape": ("mode", "height", "motion")},
     "histories": {},
