@@ -142,8 +142,9 @@ def statistics(report: CaseReport) -> list[tuple[str, str, list[float]]]:
     if "tuned_mass_displacement" in data:
         for name in data["damper"].to_numpy():
             for axis in data["across"].to_numpy():
-                slip = data.tuned_mass_displacement.sel(damper=name, across=axis)
-                rows.append((f"tuned mass {name} relative to its carrier along {axis}", "m", slip))
+                stroke = data.tuned_mass_displacement.sel(damper=name, across=axis)
+                if bool((stroke != 0).any()):  # it may slide in one direction only
+                    rows.append((f"stroke of tuned mass {name} along {axis}", "m", stroke))
     found = [
         (name, unit, [float(v) for v in (x.mean(), x.std(), x.min(), x.max())])
         for name, unit, x in rows
