@@ -21,7 +21,7 @@ from offwind_pin.analysis.modal import ModalResult
 from offwind_pin.display.viewer.serve import address, page_server
 from offwind_pin.display.viewer.view import View
 from offwind_pin.dynamics.system import System
-from offwind_pin.results.reading import open_results
+from offwind_pin.results.reading import open_checked
 
 __all__ = ["mode_shapes", "serve", "time_history"]
 
@@ -75,7 +75,7 @@ def time_history(
     """
     if isinstance(results, xr.Dataset):
         return View(results, start, duration).page()
-    with open_results(results) as tree:
+    with open_checked(results) as tree:
         return View(tree.to_dataset(), start, duration).page()
 
 

@@ -6,7 +6,7 @@ import errno
 import json
 import shutil
 import uuid
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -82,14 +82,24 @@ def append_netcdf(
                         file[str(name)][begin : begin + part.sizes["time"]] = variable.values
 
 
-def add_groups(path: Path, groups: Mapping[str, xr.Dataset]) -> None:
-    """Add datasets as groups to an existing NetCDF file, which is replaced as a whole."""
+def add_groups(
+    path: Path,
+    groups: Mapping[str, xr.Dataset],
+    complete: Callable[[Path], None] = lambda _: None,
+) -> None:
+    """Add datasets as groups to an existing NetCDF file, which is replaced as a whole.
+
+    Parameters
+    ----------
+    complete : what is done last to the new file
+    """
     with whole_file(path) as temporary, _netcdf_errors():
         shutil.copyfile(path, temporary)
         for name, data in groups.items():
             data.to_netcdf(
                 temporary, mode="a", group=name, engine="netcdf4", encoding=_encoding(data, {})
             )
+        complete(temporary)
 
 
 @contextmanager

@@ -44,6 +44,7 @@ from offwind_pin.cases.tree_summary import summary, summary_head
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.sea.sea import Sea
 from offwind_pin.results.dataset import versions
+from offwind_pin.results.inventory import add_inventory
 from offwind_pin.results.manifest import REPORT, RESULTS, SUMMARY, State
 from offwind_pin.results.reading import analysed, open_case
 from offwind_pin.results.run_folder import RunFolder
@@ -360,7 +361,7 @@ def _published_dataset(case: Case) -> xr.Dataset | None:
 def _add_groups(path: Path, groups: Groups) -> None:
     """Add all groups of the case; their dimensions are prefixed with the group's name."""
     there = {name: prefixed(data, name) for name, data in groups.items() if data is not None}
-    add_groups(path, there)
+    add_groups(path, there, add_inventory)
 
 
 def _write_stopped(

@@ -399,12 +399,12 @@ def _results_of(source: str, foundation: str, *, dry: bool, modal: bool) -> xr.D
     modal : whether modes are asked for, which a time history may have in a group
     """
     from offwind_pin.base.errors import InputError
-    from offwind_pin.results.reading import open_results
+    from offwind_pin.results.reading import open_checked
     from offwind_pin.results.tree import part
 
     path = Path(source)
     if path.is_dir() or path.suffix == ".nc":
-        tree = open_results(path)
+        tree = open_checked(path)
         found = part(tree, "modes") if modal else None
         return tree.to_dataset() if found is None else found
     if not path.exists() and source not in shipped_turbines():

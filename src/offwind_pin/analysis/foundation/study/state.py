@@ -15,7 +15,7 @@ from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.soil.curves.soil_curve import SoilCurves
 from offwind_pin.loads.soil.springs.elastic import LATERAL, SoilSprings
-from offwind_pin.results.reading import analysed
+from offwind_pin.results.reading import analysed, open_checked
 
 _SAME_HEIGHT = 1e-6
 """Difference in m."""
@@ -64,15 +64,8 @@ def reached_in_run(turbine: Turbine, soil: SoilSprings, directory: Path) -> Arra
     """
     path = directory / "results.nc"
     where = str(path)
-    if not path.is_file():
-        raise InputError(
-            where, "no such file", "results.nc of a run", "Give the --out directory of a run."
-        )
-    try:
-        histories = xr.open_dataset(path, engine="netcdf4")
-    except OSError as error:
-        raise InputError(where, str(error), "a NetCDF file", "Run the case again.") from None
-    with histories:
+    with open_checked(path) as tree:
+        histories = tree.to_dataset(inherit=False)
         if not {"displacement", "time", "height"} <= set(histories.variables):
             allowed = "displacement over time and height, as in a transient"
             raise InputError(
