@@ -13,7 +13,15 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field, model_validator
 
-from offwind_pin.base.definition import Definition, NonNegative, Number, Positive, Vector3
+from offwind_pin.base.definition import (
+    Definition,
+    Flag,
+    Integer,
+    NonNegative,
+    Number,
+    Positive,
+    Vector3,
+)
 from offwind_pin.base.descriptions import html_table
 from offwind_pin.base.errors import InputError
 from offwind_pin.definitions.hydrodynamics import Height, Hydrodynamics
@@ -161,7 +169,7 @@ class RotorNacelleRNA(Definition):
     """
 
     kind: Literal["rotor_nacelle"]
-    blades: Annotated[int, Field(ge=1, le=6)]
+    blades: Annotated[Integer, Field(ge=1, le=6)]
     blade: Blade
     hub_radius: Positive = Field(alias="hub_radius_m")
     precone: Angle = Field(alias="precone_deg")
@@ -224,7 +232,7 @@ class DampingCalibration(Definition):
     """Structural damping: the ratios that modes of the supported structure shall reach."""
 
     foundation: Literal["clamped", "coupled_springs"]
-    still_water: bool
+    still_water: Flag
     ratios: dict[
         Annotated[str, Field(pattern=r"^(FA|SS|T|V)[1-9]$")], Annotated[Positive, Field(lt=1)]
     ] = Field(alias="ratios_of_critical", min_length=1)
