@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 NOTHING = ow.LoadHistory(np.zeros(1), np.zeros((1, 6)), "nothing")
 BENT_BY = np.array([1e6, 3e5, 0, 0, 0, 1e7])
 """Load that the tower is let go from: its top swings by 0.6 m fore-aft."""
-LONG, LATE = 400.0, 40.0
+LONG, LATE = 1000.0, 100.0
 
 
 @pytest.fixture(scope="module")
@@ -75,7 +75,7 @@ def test_it_swings_freely(tower: ow.System, long_run: xr.Dataset) -> None:
 
 
 def test_energy_is_kept(tower: ow.System, long_run: xr.Dataset) -> None:
-    """After 400 s at dt = 0.01 s the energy is off by less than 1e-5 of that of the motion."""
+    """After 1000 s at dt = 0.01 s the energy is off by less than 1e-5 of that of the motion."""
     error = long_run["energy_balance"].to_numpy()
     scale = of_motion(tower, long_run)
     assert scale > 1e5
@@ -83,7 +83,7 @@ def test_energy_is_kept(tower: ow.System, long_run: xr.Dataset) -> None:
 
 
 def test_energy_does_not_drift(long_run: xr.Dataset) -> None:
-    """The error swings about zero: over 360 s its trend is a hundredth of its range, or less."""
+    """The error swings about zero: over 900 s its trend is a hundredth of its range, or less."""
     time, error = long_run["time"].to_numpy(), long_run["energy_balance"].to_numpy()
     assert trend_over_amplitude(time, error) < 0.01
     early, late = (np.abs(error[part]).max() for part in (time < LATE, time > LONG - LATE))
