@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cache, cached_property
 from importlib import metadata
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -17,7 +16,9 @@ from offwind_pin.base.channels import FRAME, Channel
 from offwind_pin.base.errors import InputError
 from offwind_pin.base.whole_files import append_netcdf
 from offwind_pin.results.blocks import Block, BlockStore
-from offwind_pin.results.channels import CHANNELS
+from offwind_pin.results.channels import CHANNELS, COORDINATES
+from offwind_pin.results.manifest import RESULTS
+from offwind_pin.results.run_folder import RunFolder
 from offwind_pin.results.tree import TITLES
 
 Array = NDArray[np.float64]
@@ -28,22 +29,6 @@ SINKS = ("joint_dampers", "foundation")
 
 _ENERGIES = ("stored", "dissipated", "worked")
 """Arrays that the energy balance is made of."""
-
-COORDINATES = {
-    "time": {"long_name": "simulated time", "units": "s"},
-    "height": {"long_name": "undeformed height", "units": "m"},
-    "direction": {"long_name": "axis of the inertial frame"},
-    "component": {"long_name": "component of a load"},
-    "segment": {"long_name": "heights of the ends of the segment"},
-    "holder": {"long_name": "kind of stored energy"},
-    "sink": {"long_name": "what dissipates energy"},
-    "source": {"long_name": "what does work on the structure"},
-    "level": {"long_name": "height at which the ground motion is recorded", "units": "m"},
-    "soil_node": {"long_name": "undeformed height of the soil node", "units": "m"},
-    "damper": {"long_name": "tuned mass damper"},
-    "across": {"long_name": "axis of the carrier"},
-}
-"""Attributes of the coordinates of a time history."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,34 +100,29 @@ class HistoryWriter:
         """Names of the arrays of a block that they are made of."""
         return {"time", *_ENERGIES, *(channel.record or channel.name for channel in self.channels)}
 
-    def write(self, store: BlockStore, status: str, directory: Path | str | None) -> xr.Dataset:
-        """Dataset of all blocks; with a directory it is in ``results.nc`` there.
+    def write(self, store: BlockStore, status: str, folder: RunFolder | None) -> xr.Dataset:
+        """Dataset of all blocks; with a folder it is written to ``results.nc`` and read from there.
 
         No more than one block is in memory at a time if the dataset goes to a file.
         """
         start = np.sum(next(iter(store))["stored"][0]) if len(store) else 0.0
-        if directory is None:
+        if folder is None:
             blocks = list(store)
             records = [name for name in blocks[0] if not name.startswith("state_")]
             whole = {name: np.concatenate([block[name] for block in blocks]) for name in records}
             return self._dataset(whole, status, start)
-        path = Path(directory) / "results.nc"
-        for left_by_a_kill in path.parent.glob(".results.*.nc"):
-            left_by_a_kill.unlink()
         dtypes = {channel.name: channel.dtype for channel in self.channels}
-        append_netcdf(path, (self._dataset(block, status, start) for block in store), dtypes)
+        blocks = iter(store)
+        first = self._dataset(next(blocks), status, start)
+        with folder.replacing(RESULTS) as path:
+            append_netcdf(path, first, (self._values(block, start) for block in blocks), dtypes)
         return xr.open_dataset(path, engine="netcdf4")
 
     def _dataset(self, block: Block, status: str, start: float) -> xr.Dataset:
         """Channels of one block; start is the energy stored at the beginning in J."""
-        stored, dissipated, worked = (block[name].sum(axis=1) for name in _ENERGIES)
-        records = {**block, "balance": stored - start + dissipated - worked}
+        values = self._values(block, start)
         channels = {
-            channel.name: (
-                ("time", *channel.dims),
-                channel.values(records, self._index),
-                channel.attributes,
-            )
+            channel.name: (("time", *channel.dims), values[channel.name], channel.attributes)
             for channel in self.channels
         }
         attributes = {
@@ -155,6 +135,13 @@ class HistoryWriter:
         }
         coordinates = {"time": ("time", block["time"], COORDINATES["time"]), **self._coordinates}
         return xr.Dataset({**channels, **self.constants}, coordinates, attributes)
+
+    def _values(self, block: Block, start: float) -> dict[str, Array]:
+        """Time and the values of every channel over it."""
+        stored, dissipated, worked = (block[name].sum(axis=1) for name in _ENERGIES)
+        records = {**block, "balance": stored - start + dissipated - worked}
+        values = {channel.name: channel.values(records, self._index) for channel in self.channels}
+        return {"time": block["time"], **values}
 
     @cached_property
     def _index(self) -> dict[str, Any]:
@@ -191,6 +178,12 @@ class HistoryWriter:
 def versions() -> dict[str, str]:
     """Versions of the programs that made a result."""
     return {
-        "offwind_pin_version": metadata.version("offwind-pin"),
-        "pinocchio_version": metadata.version("pin"),
+        "offwind_pin_version": _version("offwind-pin"),
+        "pinocchio_version": _version("pin"),
     }
+
+
+@cache
+def _version(distribution: str) -> str:
+    """To find it takes milliseconds."""
+    return metadata.version(distribution)
