@@ -31,6 +31,43 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     )
 
 
+LONGEST = (
+    "verification/test_ledger.py",
+    "benchmarks/test_pure_python.py",
+)
+"""Files that begin first, so that no worker is left with a long one at the end. The second compiles
+hardly anything, while the first compiles what most of the others need."""
+
+TOGETHER = {"verification/test_load_cases.py": "verification/test_ledger.py"}
+"""Files that share what another one has run, and go to the same worker."""
+
+
+def _file(nodeid: str) -> str:
+    """Of a test, from the folder of the tests."""
+    return nodeid.partition("::")[0].removeprefix("tests/")
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    places = {file: place for place, file in enumerate(LONGEST)}
+    items.sort(key=lambda item: places.get(_file(item.nodeid), len(places)))
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
+    """Whole files to a worker, in the order of the collection, those that share runs together."""
+    if config.getoption("dist") != "loadfile":
+        return None
+    from xdist.scheduler import LoadFileScheduling
+
+    class Scheduling(LoadFileScheduling):
+        def _split_scope(self, nodeid: str) -> str:
+            file = _file(nodeid)
+            return TOGETHER.get(file, file)
+
+    config.option.loadscopereorder = False
+    return Scheduling(config, log)
+
+
 @pytest.fixture(scope="session")
 def campaign_seed(pytestconfig: pytest.Config) -> int:
     """From which a test marked ``seeded`` draws."""

@@ -92,10 +92,11 @@ def test_netcdf_reads_back(tmp_path: Path) -> None:
         attrs={"title": "test"},
     )
     path = tmp_path / "results.nc"
-    append_netcdf(path, iter([data]), {"displacement": "float32"})
+    later = {"mudline_moment": 2 * moment[:3], "displacement": 2 * field[:3]}
+    append_netcdf(path, data, [later], {"displacement": "float32"})
     with xr.open_dataset(path, engine="netcdf4") as again:
-        assert_allclose(again.mudline_moment, moment, rtol=0)
-        assert_allclose(again.displacement, field, rtol=6e-8)
+        assert_allclose(again.mudline_moment, [*moment, *2 * moment[:3]], rtol=0)
+        assert_allclose(again.displacement, [*field, *2 * field[:3]], rtol=6e-8)
         assert again.displacement.dtype == np.float32
         assert again.attrs["title"] == "test"
     assert names(tmp_path) == ["results.nc"]

@@ -247,7 +247,7 @@ class TestRunning:
                 raise KeyboardInterrupt
 
         with pytest.raises(ow.InterruptedSimulation):
-            run_case(path, out, progress=stop)
+            run_case(path, out, report=False, progress=stop)
         told = json.loads((out / "summary.json").read_text())
         assert told["status"] == "interrupted"
         with open_case(out) as tree:
@@ -257,7 +257,7 @@ class TestRunning:
         assert "Not complete." in page
         assert "complete</dd>" not in page
         assert 'id="psd"' not in page
-        found = run_case(path, out)
+        found = run_case(path, out, report=False)
         assert found["status"] == "complete"
         assert found["resumed_at_s"] == told["simulated_s"]
         whole = json.loads((runs["transient"] / "summary.json").read_text())
@@ -280,12 +280,12 @@ class TestRunning:
         with monkeypatch.context() as patch:
             patch.setattr(case_run, "_add_groups", killed)
             with pytest.raises(SystemExit):
-                run_case(path, out)
+                run_case(path, out, report=False)
         assert {entry.name for entry in out.iterdir()} == {"blocks", "manifest.json", "results.nc"}
         code, _, err = offwind("report", str(out))
         assert code == 2
         assert "Run the case again" in err
-        assert run_case(path, out)["status"] == "complete"
+        assert run_case(path, out, report=False)["status"] == "complete"
         assert offwind("report", str(out))[0] == 0
 
     def test_results_of_another_origin_are_refused(

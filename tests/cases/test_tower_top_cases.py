@@ -38,9 +38,9 @@ TIME = np.arange(0, 60.2, 0.08)
 ROTOR = {"kind": "rotor", "wind_speed_m_per_s": 9.0, "turbulence_class": "B"}
 
 
-def run(folder: Path, load: dict[str, Any]) -> dict[str, Any]:
+def run(folder: Path, load: dict[str, Any], *, report: bool = False) -> dict[str, Any]:
     (folder / "case.yaml").write_text(yaml.safe_dump(CASE | {"tower_top_load": load}))
-    run_case(folder / "case.yaml", folder / "out")
+    run_case(folder / "case.yaml", folder / "out", report=report)
     summary: dict[str, Any] = json.loads((folder / "out" / "summary.json").read_text())
     return summary
 
@@ -112,7 +112,7 @@ def test_files_add_up(tmp_path: Path) -> None:
 @pytest.fixture(scope="module")
 def rotor(tmp_path_factory: pytest.TempPathFactory) -> tuple[dict[str, Any], Path]:
     folder = tmp_path_factory.mktemp("rotor")
-    return run(folder, ROTOR), folder
+    return run(folder, ROTOR, report=True), folder
 
 
 def test_rotor_case(rotor: tuple[dict[str, Any], Path], oc6: ow.Turbine) -> None:

@@ -147,10 +147,10 @@ def test_run_a_case_of_ones_own(offwind: Any, short_case: Path, tmp_path: Path) 
 
 def test_run_is_reproducible(offwind: Any, short_case: Path, tmp_path: Path) -> None:
     """The same case gives bitwise the same histories; another seed gives others."""
-    offwind("run", str(short_case), "--out", str(tmp_path / "a"))
-    offwind("run", str(short_case), "--out", str(tmp_path / "b"))
+    for name in ("a", "b"):
+        offwind("run", str(short_case), "--out", str(tmp_path / name), "--no-report")
     short_case.write_text(yaml.safe_dump(SHORT_CASE | {"seed": 8}))
-    offwind("run", str(short_case), "--out", str(tmp_path / "c"))
+    offwind("run", str(short_case), "--out", str(tmp_path / "c"), "--no-report")
     a, b, c = (xr.load_dataset(tmp_path / name / "results.nc")["mudline_moment"] for name in "abc")
     assert a.equals(b)
     assert not a.equals(c)

@@ -17,7 +17,7 @@ from offwind_pin.definitions.turbine import RotorNacelleRNA
 Array = NDArray[np.float64]
 
 DURATION, RAMP, SAMPLING = 120.0, 60.0, 0.02
-STEPS = np.array([0.02, 0.01, 0.005, 0.0025])
+STEPS = np.array([0.02, 0.01, 0.005])
 TOLERANCE = 1e-3
 """Of the balance over the energy dissipated by the end, the least of the energies exchanged."""
 

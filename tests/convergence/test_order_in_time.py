@@ -1,6 +1,7 @@
 """Order in dt of the compiled generalised-alpha on the chain, through ``simulate``."""
 
 from collections.abc import Callable
+from functools import cache
 
 import numpy as np
 import pytest
@@ -66,12 +67,6 @@ def tight(dt: float, radius: float) -> GeneralizedAlpha:
     return GeneralizedAlpha(FixedStep(dt), radius, 1e-11, 1e-12)
 
 
-def reference(system: ow.System, radius: float) -> list[Array]:
-    """Channels extrapolated from two fine steps."""
-    fine, finest = (channels(system, tight(dt, radius)) for dt in (FINE, FINEST))
-    return [b + (b - a) / 3 for a, b in zip(fine, finest, strict=True)]
-
-
 def errors_by_step(
     system: ow.System, exact: list[Array], scheme: Callable[[float], GeneralizedAlpha]
 ) -> list[Array]:
@@ -88,27 +83,42 @@ def system(oc6: ow.Turbine, request: pytest.FixtureRequest) -> ow.System:
     return SYSTEMS[request.param](oc6)
 
 
+Reference = Callable[[float], list[Array]]
+
+
+@pytest.fixture(scope="module")
+def exact(system: ow.System) -> Reference:
+    """Channels by spectral radius, extrapolated from two fine steps."""
+
+    @cache
+    def reference(radius: float) -> list[Array]:
+        fine, finest = (channels(system, tight(dt, radius)) for dt in (FINE, FINEST))
+        return [b + (b - a) / 3 for a, b in zip(fine, finest, strict=True)]
+
+    return reference
+
+
 @pytest.mark.parametrize("radius", [1.0, 0.9])
-def test_order_two(system: ow.System, radius: float) -> None:
+def test_order_two(system: ow.System, exact: Reference, radius: float) -> None:
     """Mudline moment and tower-top displacement converge with the square of the step."""
-    exact = reference(system, radius)
-    for error in errors_by_step(system, exact, lambda dt: tight(dt, radius)):
+    for error in errors_by_step(system, exact(radius), lambda dt: tight(dt, radius)):
         assert fitted_order(STEPS, error) == pytest.approx(2.0, abs=0.1)
         assert 1e-6 < error[-1] < 1e-3
 
 
-def test_default_tolerances_keep_the_order(system: ow.System) -> None:
+def test_default_tolerances_keep_the_order(system: ow.System, exact: Reference) -> None:
     """What Newton's iteration leaves by default is small beside the error of the steps tried."""
-    exact = reference(system, 0.9)
-    default = errors_by_step(system, exact, lambda dt: GeneralizedAlpha(FixedStep(dt), 0.9))
+    default = errors_by_step(system, exact(0.9), lambda dt: GeneralizedAlpha(FixedStep(dt), 0.9))
     for error in default:
         assert fitted_order(STEPS, error) == pytest.approx(2.0, abs=0.1)
 
 
-def test_a_first_order_scheme_is_seen(system: ow.System, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_first_order_scheme_is_seen(
+    system: ow.System, exact: Reference, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Negative control: by backward Euler the same channels converge with the step itself."""
-    exact = reference(system, 1.0)
+    truth = exact(1.0)
     monkeypatch.setattr(generalized_alpha, "compiled_advance", compiled_backward_euler)
-    for error in errors_by_step(system, exact, lambda dt: tight(dt, 1.0)):
+    for error in errors_by_step(system, truth, lambda dt: tight(dt, 1.0)):
         assert fitted_order(STEPS, error) == pytest.approx(0.95, abs=0.1)
         assert 0.01 < error[-1] < 0.1

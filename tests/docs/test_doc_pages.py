@@ -6,7 +6,8 @@ import ast
 import re
 import runpy
 import shlex
-from collections.abc import Iterator
+from collections.abc import Iterator, Set
+from functools import cache
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
@@ -17,6 +18,9 @@ from helpers.doc_pages import ROOT, blocks
 
 import offwind_pin as ow
 from offwind_pin import plots
+from offwind_pin.cases import case as case_module
+from offwind_pin.cases.case import Case, ModalAnalysis, TransientAnalysis, load_case
+from offwind_pin.cases.shipped import shipped_cases
 
 DOCS = ROOT / "docs"
 PACKAGE = ROOT / "src" / "offwind_pin"
@@ -41,7 +45,8 @@ def _names_of(module: Path) -> Iterator[str]:
             yield node.name
 
 
-def _known() -> set[str]:
+@cache
+def _known() -> frozenset[str]:
     """Every way in which a page may name a part of the package, from its last name upwards."""
     known: set[str] = set()
     for path in PACKAGE.rglob("*.py"):
@@ -49,10 +54,10 @@ def _known() -> set[str]:
         for name in (*_names_of(path), ""):
             whole = [*parts, *name.split(".")] if name else [*parts]
             known |= {".".join(whole[i:]) for i in range(len(whole))}
-    return known
+    return frozenset(known)
 
 
-def unknown_names(page: str, known: set[str]) -> list[str]:
+def unknown_names(page: str, known: Set[str]) -> list[str]:
     """Inline literals of a page that look like a part of the package and are none."""
     found = []
     for literal in re.findall(r"(?<!`)`([^`\n]+)`(?!`)", page):
@@ -185,8 +190,21 @@ def test_command(text: str, offwind: Any, tmp_path: Path, monkeypatch: pytest.Mo
         found = [b.text for b in blocks(DOCS / f"{page}.md") if b.language == language]
         (tmp_path / name).write_text(found[0])
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(case_module, "load_case", _shortened)
     code, _, err = offwind(*shlex.split(text)[1:])
     assert code == 0, err
+
+
+def _shortened(name: str) -> Case:
+    """A case; of a shipped one a few minutes, because tests/verification has run it as it is."""
+    case = load_case(name)
+    if name in shipped_cases():
+        if isinstance(case.analysis, TransientAnalysis):
+            case = case.replace(analysis=case.analysis.replace(duration=120.0, psd_segment=50.0))
+        elif isinstance(case.analysis, ModalAnalysis) and case.analysis.identify is not None:
+            record = case.analysis.identify.replace(duration=600.0, segment=100.0)
+            case = case.replace(analysis=case.analysis.replace(identify=record))
+    return case
 
 
 def test_make_targets_and_scripts_are_there() -> None:

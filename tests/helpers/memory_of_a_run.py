@@ -22,7 +22,7 @@ def main() -> None:
     data = ow.simulate(
         system,
         duration,
-        0.05,
+        0.1,
         ramp=60.0,
         save_at=ow.SaveAt(0.1, heights=heights.tolist()),
         directory=folder,

@@ -87,6 +87,15 @@ def contents(directory: Path) -> xr.Dataset:
         return data.load()
 
 
+@pytest.fixture(scope="module")
+def whole(system: ow.System, tmp_path_factory: pytest.TempPathFactory) -> dict[str, xr.Dataset]:
+    """Results of runs that nothing stopped."""
+    folders = {method: tmp_path_factory.mktemp(method) for method in INTEGRATORS}
+    for method, folder in folders.items():
+        run(system, method, folder).close()
+    return {method: contents(folder) for method, folder in folders.items()}
+
+
 @FIXED_AND_ADAPTIVE
 def test_file_holds_what_memory_would(system: ow.System, tmp_path: Path, method: str) -> None:
     """Channels of one height in full; those over all heights, and over segments, as 32-bit numbers."""
@@ -107,25 +116,23 @@ def test_file_holds_what_memory_would(system: ow.System, tmp_path: Path, method:
 @pytest.mark.parametrize("method", INTEGRATORS)
 @pytest.mark.parametrize("time", [0.0, 60.0, 90.0])
 def test_interrupted_and_resumed(
-    system: ow.System, tmp_path: Path, method: str, time: float
+    system: ow.System, whole: dict[str, xr.Dataset], tmp_path: Path, method: str, time: float
 ) -> None:
     """Stopped at the end of any block, the run says where, keeps what it has, and goes on."""
-    run(system, method, tmp_path / "whole").close()
     with pytest.raises(ow.InterruptedSimulation) as stopped:
         run(system, method, tmp_path / "stopped", progress=stop_at(time))
     reached = max(20.0, time)
-    whole = contents(tmp_path / "whole")
     kept = stopped.value.results
     assert stopped.value.time == kept["time"].to_numpy()[-1] == time_reached(tmp_path / "stopped")
     assert stopped.value.time == pytest.approx(reached)
     assert kept.attrs["status"] == "interrupted"
-    before = whole.isel(time=slice(0, len(kept["time"]))).assign_attrs(status="interrupted")
+    before = whole[method].isel(time=slice(0, len(kept["time"]))).assign_attrs(status="interrupted")
     assert same(kept.load(), before)
     kept.close()
     seen: list[float] = []
     run(system, method, tmp_path / "stopped", progress=seen.append).close()
     assert all(now > reached for now in seen)
-    assert same(contents(tmp_path / "stopped"), whole)
+    assert same(contents(tmp_path / "stopped"), whole[method])
 
 
 def test_no_cache_outlives_a_block(system: ow.System, tmp_path: Path) -> None:
@@ -148,22 +155,24 @@ def test_no_cache_outlives_a_block(system: ow.System, tmp_path: Path) -> None:
     assert same(contents(tmp_path / "stopped"), contents(tmp_path / "whole"))
 
 
-def test_interrupted_many_times(system: ow.System, tmp_path: Path) -> None:
+def test_interrupted_many_times(
+    system: ow.System, whole: dict[str, xr.Dataset], tmp_path: Path
+) -> None:
     """After every block: a run in five pieces is that in one."""
-    run(system, "fixed", tmp_path / "whole").close()
     for reached in (20.0, 40.0, 60.0, 80.0, 90.0):
         with pytest.raises(ow.InterruptedSimulation) as stopped:
             run(system, "fixed", tmp_path / "stopped", progress=stop_at(0.0))
         stopped.value.results.close()
         assert stopped.value.time == pytest.approx(reached)
     run(system, "fixed", tmp_path / "stopped").close()
-    assert same(contents(tmp_path / "stopped"), contents(tmp_path / "whole"))
+    assert same(contents(tmp_path / "stopped"), whole["fixed"])
 
 
-def test_a_lost_state_is_seen(system: ow.System, tmp_path: Path) -> None:
-    """The block is refused. Negative control of the comparisons: were a block's state off in the last digit, the results would not be the
-    same."""
-    run(system, "fixed", tmp_path / "whole").close()
+def test_a_lost_state_is_seen(
+    system: ow.System, whole: dict[str, xr.Dataset], tmp_path: Path
+) -> None:
+    """The block is refused. Negative control of the comparisons: with a block's state off in the
+    last digit the results are not the same."""
     with pytest.raises(ow.InterruptedSimulation) as stopped:
         run(system, "fixed", tmp_path / "stopped", progress=stop_at(40.0))
     stopped.value.results.close()
@@ -176,7 +185,7 @@ def test_a_lost_state_is_seen(system: ow.System, tmp_path: Path) -> None:
         run(system, "fixed", tmp_path / "stopped")
     accept(tmp_path / "stopped", last)
     run(system, "fixed", tmp_path / "stopped").close()
-    assert not same(contents(tmp_path / "stopped"), contents(tmp_path / "whole"))
+    assert not same(contents(tmp_path / "stopped"), whole["fixed"])
 
 
 def accept(directory: Path, block: Path) -> None:

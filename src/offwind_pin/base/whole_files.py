@@ -6,13 +6,15 @@ import errno
 import json
 import shutil
 import uuid
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     import xarray as xr
+
+    from offwind_pin.base.definition import Array
 
 
 _CHUNK = 256
@@ -53,33 +55,39 @@ def write_json(path: Path, data: dict[str, Any]) -> None:
 
 def write_netcdf(path: Path, data: xr.Dataset) -> None:
     """Compressed NetCDF."""
-    append_netcdf(path, iter([data]))
+    append_netcdf(path, data)
 
 
 def append_netcdf(
-    path: Path, parts: Iterator[xr.Dataset], dtypes: Mapping[str, str] | None = None
+    path: Path,
+    first: xr.Dataset,
+    more: Iterable[Mapping[str, Array]] = (),
+    dtypes: Mapping[str, str] | None = None,
 ) -> None:
-    """The same from datasets that follow one another along ``time``, one at a time in memory.
+    """The same, continued along ``time``.
 
     Parameters
     ----------
-    dtypes : types of the numbers in the file, by variable, where they differ from those in memory
+    first : Dataset
+        Begins the file.
+    more : iterable of mapping of str to array
+        Values that follow, one part at a time in memory: of ``time`` and of every variable over it.
+    dtypes : mapping of str to str, optional
+        Types of the numbers in the file, by variable, where they differ from those in memory.
     """
     import netCDF4
 
     with whole_file(path) as temporary, _netcdf_errors():
-        first = next(parts)
         unlimited = ["time"] if "time" in first.sizes else []
         encoding = _encoding(first, dtypes or {})
         first.to_netcdf(temporary, engine="netcdf4", encoding=encoding, unlimited_dims=unlimited)
         with netCDF4.Dataset(temporary, "a") as file:
             for kept in file.variables.values():
                 kept.set_var_chunk_cache(size=_CACHE_BYTES)
-            for part in parts:
+            for part in more:
                 begin = len(file.dimensions["time"])
-                for name, variable in part.variables.items():
-                    if "time" in variable.dims:
-                        file[str(name)][begin : begin + part.sizes["time"]] = variable.values
+                for name, values in part.items():
+                    file[name][begin : begin + len(values)] = values
 
 
 def add_groups(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cache, cached_property
 from importlib import metadata
 from typing import Any
 
@@ -112,20 +112,17 @@ class HistoryWriter:
             whole = {name: np.concatenate([block[name] for block in blocks]) for name in records}
             return self._dataset(whole, status, start)
         dtypes = {channel.name: channel.dtype for channel in self.channels}
+        blocks = iter(store)
+        first = self._dataset(next(blocks), status, start)
         with folder.replacing(RESULTS) as path:
-            append_netcdf(path, (self._dataset(block, status, start) for block in store), dtypes)
+            append_netcdf(path, first, (self._values(block, start) for block in blocks), dtypes)
         return xr.open_dataset(path, engine="netcdf4")
 
     def _dataset(self, block: Block, status: str, start: float) -> xr.Dataset:
         """Channels of one block; start is the energy stored at the beginning in J."""
-        stored, dissipated, worked = (block[name].sum(axis=1) for name in _ENERGIES)
-        records = {**block, "balance": stored - start + dissipated - worked}
+        values = self._values(block, start)
         channels = {
-            channel.name: (
-                ("time", *channel.dims),
-                channel.values(records, self._index),
-                channel.attributes,
-            )
+            channel.name: (("time", *channel.dims), values[channel.name], channel.attributes)
             for channel in self.channels
         }
         attributes = {
@@ -138,6 +135,13 @@ class HistoryWriter:
         }
         coordinates = {"time": ("time", block["time"], COORDINATES["time"]), **self._coordinates}
         return xr.Dataset({**channels, **self.constants}, coordinates, attributes)
+
+    def _values(self, block: Block, start: float) -> dict[str, Array]:
+        """Time and the values of every channel over it."""
+        stored, dissipated, worked = (block[name].sum(axis=1) for name in _ENERGIES)
+        records = {**block, "balance": stored - start + dissipated - worked}
+        values = {channel.name: channel.values(records, self._index) for channel in self.channels}
+        return {"time": block["time"], **values}
 
     @cached_property
     def _index(self) -> dict[str, Any]:
@@ -174,6 +178,12 @@ class HistoryWriter:
 def versions() -> dict[str, str]:
     """Versions of the programs that produced a result."""
     return {
-        "offwind_pin_version": metadata.version("offwind-pin"),
-        "pinocchio_version": metadata.version("pin"),
+        "offwind_pin_version": _version("offwind-pin"),
+        "pinocchio_version": _version("pin"),
     }
+
+
+@cache
+def _version(distribution: str) -> str:
+    """To find it takes milliseconds."""
+    return metadata.version(distribution)

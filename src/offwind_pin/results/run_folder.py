@@ -17,7 +17,7 @@ from typing import Any, Self, cast
 
 from offwind_pin.base.definition import file_digest
 from offwind_pin.base.errors import InputError
-from offwind_pin.base.whole_files import write_json
+from offwind_pin.base.whole_files import write_text
 from offwind_pin.results.folder_lock import FolderLock
 from offwind_pin.results.manifest import (
     BLOCKS,
@@ -186,7 +186,7 @@ class RunFolder:
 
     def _write(self, manifest: Manifest) -> None:
         self.check()
-        write_json(self.directory / MANIFEST, manifest.model_dump(mode="json"))
+        write_text(self.directory / MANIFEST, manifest.model_dump_json(indent=2) + "\n")
         self.manifest = manifest
 
     def _own_files(self, name: FileName) -> dict[FileName, str | None]:

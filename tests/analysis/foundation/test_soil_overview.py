@@ -125,7 +125,7 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Path:
             }
         )
     )
-    run_case(case, folder / "out")
+    run_case(case, folder / "out", report=False)
     return folder / "out"
 
 

@@ -103,7 +103,7 @@ def folder(tmp_path: Path) -> Path:
 
 def run(folder: Path, **changes: Any) -> dict[str, Any]:
     (folder / "case.yaml").write_text(yaml.safe_dump(CASE | changes))
-    return run_case(folder / "case.yaml", folder / "out")
+    return run_case(folder / "case.yaml", folder / "out", report=False)
 
 
 @pytest.mark.parametrize("fault", LOAD_FAULTS)
