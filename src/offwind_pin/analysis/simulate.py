@@ -23,6 +23,7 @@ from offwind_pin.analysis.integrators import (
 )
 from offwind_pin.analysis.static import static
 from offwind_pin.analysis.wave_checks import check_waves, wave_facts
+from offwind_pin.base.arguments import checked
 from offwind_pin.base.channels import Channel
 from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError, InterruptedSimulation, SolverError
@@ -53,6 +54,7 @@ _BLOCK_STEPS = 2000
 """A block ends with an output and holds no more than either; it is what a killed run loses."""
 
 
+@checked
 def simulate(
     system: System,
     duration: float,

@@ -15,6 +15,7 @@ import typer
 
 from offwind_pin.analysis.foundation.registry import FOUNDATIONS
 from offwind_pin.cases.shipped import shipped_cases
+from offwind_pin.cli.arguments import integer_option, naming, number_option, say
 from offwind_pin.cli.exit_codes import EXIT_SYSTEM
 from offwind_pin.definitions.element import Element
 from offwind_pin.definitions.engine import Engine
@@ -78,7 +79,10 @@ FoundationOption = Annotated[
     str,
     typer.Option(help=f"One of {', '.join(FOUNDATIONS)}.", autocompletion=_complete_foundation),
 ]
-ElementsOption = Annotated[int | None, typer.Option(help="Multibody beam elements in all.")]
+ElementsOption = Annotated[
+    int | None,
+    integer_option("Multibody beam elements in all."),
+]
 ElementOption = Annotated[
     Element, typer.Option(help="euler_bernoulli, or timoshenko for elements that shear as well.")
 ]
@@ -89,6 +93,7 @@ JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON instead of 
 
 
 @app.command()
+@naming("turbine")
 def show(turbine: TurbineArgument, as_json: JsonOption = False) -> None:  # noqa: FBT002
     """Summarise the turbine as read: masses, lengths, frequencies."""
     from offwind_pin.cases.turbine_overview import overview
@@ -103,13 +108,17 @@ def show(turbine: TurbineArgument, as_json: JsonOption = False) -> None:  # noqa
 
 
 @app.command("modes")
+@naming("turbine")
 def modes_command(
     turbine: TurbineArgument,
     foundation: FoundationOption = "distributed_springs",
     dry: Annotated[bool, typer.Option("--dry", help="Without water.")] = False,  # noqa: FBT002
     elements: ElementsOption = None,
     element: ElementOption = "euler_bernoulli",
-    count: Annotated[int | None, typer.Option(help="Number of modes, by default 8.")] = None,
+    count: Annotated[
+        int | None,
+        integer_option("Number of modes, by default 8."),
+    ] = None,
     engine: EngineOption = "compiled",
     as_json: JsonOption = False,  # noqa: FBT002
 ) -> None:
@@ -140,6 +149,7 @@ def modes_command(
 
 
 @app.command("static")
+@naming("turbine")
 def static_command(
     turbine: TurbineArgument,
     foundation: FoundationOption = "distributed_springs",
@@ -171,6 +181,7 @@ def static_command(
 
 
 @app.command("soil")
+@naming("turbine")
 def soil_command(
     turbine: TurbineArgument,
     out: Annotated[
@@ -185,7 +196,9 @@ def soil_command(
     ] = None,
     arm: Annotated[
         float | None,
-        typer.Option(help="Height in m of the pushover's load, by default the yaw bearing's."),
+        number_option(
+            "Height in m of the pushover's load, by default the yaw bearing's.",
+        ),
     ] = None,
     elements: ElementsOption = None,
     as_json: JsonOption = False,  # noqa: FBT002
@@ -209,10 +222,11 @@ def soil_command(
         return
     print_soil(found)
     for path in written:
-        typer.echo(f"Wrote {path}")
+        say(f"Wrote {path}")
 
 
 @app.command()
+@naming("case")
 def run(
     case: Annotated[
         str,
@@ -241,7 +255,7 @@ def run(
         return
     print_values(definition.title or definition.name, summary)
     if report:
-        typer.echo(f"Report: {out / 'report.html'}")
+        say(f"Report: {out / 'report.html'}")
 
 
 @app.command("report")
@@ -258,10 +272,11 @@ def report_command(
             "DIR", str(directory), "an existing directory", "Name the --out of offwind run."
         )
     check_writable(directory)
-    typer.echo(f"Wrote {report_again(directory)}")
+    say(f"Wrote {report_again(directory)}")
 
 
 @app.command("animate")
+@naming("turbine")
 def animate_command(
     turbine: TurbineArgument,
     html: Annotated[Path, typer.Option(help="File to write.")],
@@ -277,10 +292,11 @@ def animate_command(
     _check_target("--html", html, "fa2.html")
     results = _modes_of(turbine, foundation, dry=dry, element=element)
     write_text(html, View(results, labels=[mode.upper()]).page())
-    typer.echo(f"Wrote {html}")
+    say(f"Wrote {html}")
 
 
 @app.command("view")
+@naming("source")
 def view_command(
     source: Annotated[
         str,
@@ -291,9 +307,15 @@ def view_command(
     frames: Annotated[
         Path | None, typer.Option(help="New directory for numbered frames of a film.")
     ] = None,
-    fps: Annotated[float | None, typer.Option(help="Frames per second, by default 25.")] = None,
-    start: Annotated[float | None, typer.Option(help="Start of the part shown in s.")] = None,
-    duration: Annotated[float | None, typer.Option(help="Its duration in s.")] = None,
+    fps: Annotated[
+        float | None,
+        number_option("Frames per second, by default 25."),
+    ] = None,
+    start: Annotated[
+        float | None,
+        number_option("Start of the part shown in s."),
+    ] = None,
+    duration: Annotated[float | None, number_option("Its duration in s.")] = None,
     mode_list: Annotated[
         str | None, typer.Option("--modes", help="Side by side, up to four: FA1,SS1,FA2,SS2.")
     ] = None,
@@ -301,7 +323,7 @@ def view_command(
         str, typer.Option(help="Of a turbine; results have their own.")
     ] = "distributed_springs",
     dry: Annotated[bool, typer.Option("--dry", help="A turbine without water.")] = False,  # noqa: FBT002
-    port: Annotated[int, typer.Option(help="By default any that is free.")] = 0,
+    port: Annotated[int, integer_option("By default any that is free.")] = 0,
     browser: Annotated[bool, typer.Option(help="Open the page in a browser.")] = True,  # noqa: FBT002
 ) -> None:
     """Show results in motion: a page on this computer until Ctrl-C, or files."""
@@ -327,20 +349,20 @@ def view_command(
     view = View(results, start, duration, labels)
     if html is not None:
         write_text(html, view.page())
-        typer.echo(f"Wrote {html}")
+        say(f"Wrote {html}")
     if still is not None:
         view.still(still)
-        typer.echo(f"Wrote {still}")
+        say(f"Wrote {still}")
     if frames is not None:
         rate = FPS if fps is None else fps
         with frames_progress() as progress:
             view.film(frames, rate, progress)
-        typer.echo(f"Wrote {frames}; a film of it:")
+        say(f"Wrote {frames}; a film of it:")
         pattern, name = (
             shlex.quote(str(path)) for path in (frames / "frame_%05d.png", frames.name)
         )
         film = f"ffmpeg -framerate {rate:g} -i {pattern} -pix_fmt yuv420p {name}.mp4"
-        typer.echo(film)
+        say(film)
     if (html, still, frames) == (None, None, None):
         serve(view.page(), port, browser=browser)
 
@@ -386,6 +408,7 @@ def _modes_of(
 
 
 @app.command()
+@naming("turbine")
 def urdf(
     turbine: TurbineArgument,
     out: Annotated[Path, typer.Option(help="Directory for the URDF, its meshes and sidecar.")],
@@ -402,7 +425,7 @@ def urdf(
     check_writable(out)
     system = build(load_turbine(turbine), foundation, elements=elements, element=element)
     for path in export_urdf(system, out):
-        typer.echo(f"Wrote {path}")
+        say(f"Wrote {path}")
 
 
 @app.command("verify")
@@ -454,16 +477,17 @@ def _numbers(text: str, option: str) -> Array:
     import numpy as np
 
     from offwind_pin.base.errors import InputError
+    from offwind_pin.base.number_tables import parse_number
 
-    try:
-        return np.array([float(cell) for cell in text.split(",")])
-    except ValueError:
+    numbers = [parse_number(cell.strip()) for cell in text.split(",")]
+    if None in numbers:
         raise InputError(
             option,
             text,
             "six finite numbers FX,FY,FZ,MX,MY,MZ in N and N m",
             "Separate them by commas: 1e6,0,0,0,0,0.",
-        ) from None
+        )
+    return np.array(numbers, dtype=float)
 
 
 def _check_target(option: str, path: Path, example: str) -> None:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import xarray as xr
 
+from offwind_pin.base.arguments import checked
 from offwind_pin.base.errors import InputError
 
 FILE = "results.nc"
@@ -13,6 +14,7 @@ _TITLE = "offwind-pin"
 _REMEDY = "Name the output directory of `offwind run`, or a results.nc."
 
 
+@checked
 def open_results(source: Path | str) -> xr.DataTree:
     """The results of a run as a tree, read channel by channel on demand.
 

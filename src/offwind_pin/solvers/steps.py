@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Protocol
 
+from offwind_pin.base.arguments import checked_class
 from offwind_pin.base.errors import InputError
 
 MOST_STEPS = 100_000
@@ -34,6 +35,7 @@ class StepPolicy(Protocol):
         """Plain data for the results."""
 
 
+@checked_class
 @dataclass(frozen=True)
 class FixedStep:
     """Steps of one size; where one fails, the interval is done again with halved ones.
@@ -64,6 +66,7 @@ class FixedStep:
         return {"step_policy": "fixed", "dt_s": self.dt}
 
 
+@checked_class
 @dataclass(frozen=True)
 class AdaptiveStep:
     """Steps halved where the local error exceeds a tolerance, doubled where it is far below.

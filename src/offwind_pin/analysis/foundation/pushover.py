@@ -10,6 +10,7 @@ import numpy as np
 from offwind_pin.analysis.assemble import assemble
 from offwind_pin.analysis.foundation.pile_only import axis_jacobian, pile_only
 from offwind_pin.analysis.static import axis_rotation, load_scale
+from offwind_pin.base.arguments import checked
 from offwind_pin.base.definition import Array
 from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError, SolverError
@@ -65,6 +66,7 @@ class Pushover:
     __repr__ = one_line
 
 
+@checked
 def pushover(
     turbine: Turbine,
     arm: float,

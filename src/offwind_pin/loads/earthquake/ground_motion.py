@@ -8,6 +8,7 @@ from typing import Literal
 
 import numpy as np
 
+from offwind_pin.base.arguments import checked_class
 from offwind_pin.base.definition import Array
 from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError
@@ -23,6 +24,7 @@ _MANY = 20
 """Steps from which on a record is sampled, and not a table of corners written by hand."""
 
 
+@checked_class
 @dataclass(frozen=True, eq=False)
 class GroundMotion:
     """Acceleration of the ground, linear between its samples, with the motion that follows from it.

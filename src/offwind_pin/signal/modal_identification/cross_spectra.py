@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import signal
 
+from offwind_pin.base.arguments import checked
 from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError
 
@@ -53,6 +54,7 @@ class CrossSpectra:
         return len(self.window) / self.sample_rate
 
 
+@checked
 def cross_spectral_matrix(
     acceleration: Array,
     sample_rate: float,

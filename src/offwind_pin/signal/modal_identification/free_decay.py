@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import signal
 
+from offwind_pin.base.arguments import checked
 from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError
 
@@ -80,6 +81,7 @@ class FreeDecay:
     __repr__ = one_line
 
 
+@checked
 def free_decay(
     values: Array,
     dt: float,
