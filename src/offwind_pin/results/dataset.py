@@ -17,7 +17,7 @@ from offwind_pin.base.channels import FRAME, Channel
 from offwind_pin.base.errors import InputError
 from offwind_pin.base.whole_files import append_netcdf
 from offwind_pin.results.blocks import Block, BlockStore
-from offwind_pin.results.channels import CHANNELS
+from offwind_pin.results.channels import CHANNELS, COORDINATES
 from offwind_pin.results.tree import TITLES
 
 Array = NDArray[np.float64]
@@ -28,22 +28,6 @@ SINKS = ("joint_dampers", "foundation")
 
 _ENERGIES = ("stored", "dissipated", "worked")
 """Arrays that the energy balance is made of."""
-
-COORDINATES = {
-    "time": {"long_name": "simulated time", "units": "s"},
-    "height": {"long_name": "undeformed height", "units": "m"},
-    "direction": {"long_name": "axis of the inertial frame"},
-    "component": {"long_name": "component of a load"},
-    "segment": {"long_name": "heights of the ends of the segment"},
-    "holder": {"long_name": "kind of stored energy"},
-    "sink": {"long_name": "what dissipates energy"},
-    "source": {"long_name": "what does work on the structure"},
-    "level": {"long_name": "height at which the ground motion is recorded", "units": "m"},
-    "soil_node": {"long_name": "undeformed height of the soil node", "units": "m"},
-    "damper": {"long_name": "tuned mass damper"},
-    "across": {"long_name": "axis of the carrier"},
-}
-"""Attributes of the coordinates of a time history."""
 
 
 @dataclass(frozen=True, eq=False)
