@@ -159,7 +159,11 @@ def _member_facts(turbine: Turbine, member: Member) -> MemberFacts:
 
 
 def _frequencies(turbine: Turbine) -> dict[str, dict[str, float]]:
-    """Frequencies on every foundation that the turbine has the numbers for."""
+    """Frequencies on every foundation that the turbine has the numbers for.
+
+    They are undamped: structural damping is not calibrated for them.
+    """
+    turbine = turbine.model_copy(update={"structural_damping": None})
     found = {}
     for foundation in described_foundations(turbine):
         sea = None if foundation == "clamped" else StillWater()

@@ -41,9 +41,9 @@ def _integer(text: str | int) -> int:
     return int(text)
 
 
-def say(text: str) -> None:
-    """A line on standard output; paths in it cannot steer the terminal."""
-    typer.echo(printable(text))
+def say(text: str, *, error: bool = False) -> None:
+    """A line on standard output, or error; paths in it cannot steer the terminal."""
+    typer.echo(printable(text), err=error)
 
 
 def naming(argument: str) -> Callable[[Callable[P, R]], Callable[P, R]]:
@@ -55,7 +55,9 @@ def naming(argument: str) -> Callable[[Callable[P, R]], Callable[P, R]]:
             try:
                 return command(*args, **kwargs)
             except InputError as error:
-                given = str(kwargs.get(argument, ""))
+                found = kwargs.get(argument)
+                several = found if isinstance(found, list) else [found]
+                given = str(several[0]) if len(several) == 1 else ""
                 path = Path(given)
                 if error.where.startswith("-") or path.name in error.where or not path.suffix:
                     raise

@@ -9,9 +9,9 @@ import xarray as xr
 from offwind_pin.base.arguments import checked
 from offwind_pin.base.errors import InputError
 from offwind_pin.results.channels import channel_fault
+from offwind_pin.results.manifest import RESULTS
 from offwind_pin.results.tree import TITLES
 
-FILE = "results.nc"
 _TITLE = "offwind-pin"
 _REMEDY = "Name the output directory of `offwind run`, or a results.nc."
 
@@ -36,7 +36,7 @@ def open_results(source: Path | str) -> xr.DataTree:
         No results found, a file of another origin, or channels other than those declared.
     """
     given = Path(source)
-    path = given / FILE if given.is_dir() else given
+    path = given / RESULTS if given.is_dir() else given
     if not path.is_file():
         raise InputError("results", str(path), "an existing file", _REMEDY)
     try:

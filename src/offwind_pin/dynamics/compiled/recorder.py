@@ -105,8 +105,9 @@ class Recorder(Record):
     cuts, segments, soil : what is recorded
     every : steps between records
     energies : (L,) addresses of the loads' kernels; 0 for a load that stores none
-    commit, at_cuts : addresses of the kernels that end a step, 0 without memory, and that record
+    commit, at_cuts : addresses of the kernels that end a step, 0 without memory, and that give
         motions and section loads
+    each_step, each_record : addresses of the kernels that sum energies, and that write a record
     tally : (2,) steps taken, records made
     clock : (1,) time of the last step in s
     power, energy : (2, L + 2) dissipated and worked, at the last step in W and so far in J
@@ -130,6 +131,8 @@ class Recorder(Record):
     energies: Counts
     commit: Count
     at_cuts: Count
+    each_step: Counts
+    each_record: Counts
     tally: Counts
     clock: Numbers
     power: Numbers2
@@ -242,6 +245,8 @@ class Kernels(NamedTuple):
     energies: NDArrayInt
     commit: int
     at_cuts: int
+    each_step: NDArrayInt
+    each_record: NDArrayInt
 
 
 def make_recorder(
@@ -263,6 +268,8 @@ def make_recorder(
         energies=kernels.energies,
         commit=kernels.commit,
         at_cuts=kernels.at_cuts,
+        each_step=kernels.each_step,
+        each_record=kernels.each_record,
         tally=np.zeros(2, dtype=np.intp),
         clock=np.zeros(1),
         power=np.zeros((2, loads + 2)),
