@@ -18,6 +18,7 @@ import xarray as xr
 
 from offwind_pin.analysis.drawing_data import modes_dataset
 from offwind_pin.analysis.modal import ModalResult
+from offwind_pin.base.arguments import checked
 from offwind_pin.display.viewer.serve import address, page_server
 from offwind_pin.display.viewer.view import View
 from offwind_pin.dynamics.system import System
@@ -26,6 +27,7 @@ from offwind_pin.results.reading import open_checked
 __all__ = ["mode_shapes", "serve", "time_history"]
 
 
+@checked
 def mode_shapes(system: System, modes: ModalResult, labels: Sequence[str] | None = None) -> str:
     """Page of the natural modes of a system, up to four side by side.
 
@@ -51,6 +53,7 @@ def mode_shapes(system: System, modes: ModalResult, labels: Sequence[str] | None
     return View(modes_dataset(system, modes), labels=chosen).page()
 
 
+@checked
 def time_history(
     results: xr.Dataset | Path | str, start: float | None = None, duration: float | None = None
 ) -> str:
@@ -79,6 +82,7 @@ def time_history(
         return View(tree.to_dataset(), start, duration).page()
 
 
+@checked
 def serve(
     page: str,
     port: int = 0,

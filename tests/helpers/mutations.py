@@ -209,6 +209,23 @@ def outcome(one: Mutant, folder: Path) -> str:
     return "valid"
 
 
+def solve(one: Mutant, folder: Path) -> str:
+    """The same for the static state and two modes of a valid turbine, which must be finite."""
+    turbine = definition_of(one.data, folder / "mutant.yaml", Turbine)
+    turbine = turbine.model_copy(update={"structural_damping": None})
+    try:
+        name = "clamped" if turbine.soil.coupled_springs is None else "coupled_springs"
+        system = ow.build(turbine, name, ow.StillWater(), elements=3)
+        state = ow.static(system)
+        modes = ow.modes(system, 2, about=state)
+    except (ow.InputError, ow.SolverError):
+        return "refused"
+    assert np.all(np.isfinite(state.q)), state.q
+    assert np.all(np.isfinite(modes.frequency_hz) & (modes.frequency_hz > 0)), modes.frequency_hz
+    assert np.all(np.isfinite(modes.damping_ratio)), modes.damping_ratio
+    return "valid"
+
+
 def _make_turbine(turbine: Turbine, place: tuple[str | int, ...]) -> None:
     """Systems of a turbine; the damping is calibrated where it has been changed."""
     assert repr(turbine)

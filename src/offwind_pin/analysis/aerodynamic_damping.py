@@ -8,6 +8,7 @@ import numpy as np
 
 from offwind_pin.analysis.modal import ModalResult, modes
 from offwind_pin.analysis.static import StaticResult, static
+from offwind_pin.base.arguments import checked
 from offwind_pin.base.definition import Array
 from offwind_pin.definitions.rotor_disc import rotor_disc
 from offwind_pin.dynamics.system import System
@@ -34,6 +35,7 @@ class AerodynamicDamping:
     ratio: Array
 
 
+@checked
 def aerodynamic_damping(
     system: System,
     wind_speed: float,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from offwind_pin.analysis.assemble import assemble
 from offwind_pin.analysis.foundation.registry import make_foundation
 from offwind_pin.analysis.structural_damping import StructuralDamping, calibrate_damping
+from offwind_pin.base.arguments import checked
 from offwind_pin.base.errors import InputError
 from offwind_pin.definitions.element import Element
 from offwind_pin.definitions.turbine import Turbine
@@ -14,6 +15,7 @@ from offwind_pin.loads.soil.foundation import Foundation
 from offwind_pin.structure.chain import Elements, Stiffness
 
 
+@checked
 def build(
     turbine: Turbine,
     foundation: str | Foundation = "distributed_springs",

@@ -11,6 +11,7 @@ from typing import Any, ClassVar, Literal, NamedTuple
 import numpy as np
 
 from offwind_pin.analysis.static import load_scale
+from offwind_pin.base.arguments import checked_class
 from offwind_pin.base.definition import Array
 from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError
@@ -232,6 +233,7 @@ class _Advanced(NamedTuple):
     error: float
 
 
+@checked_class
 @dataclass(frozen=True)
 class GeneralizedAlpha(Integrator):
     """Generalised-alpha with modified Newton.
@@ -348,6 +350,7 @@ class GeneralizedAlpha(Integrator):
         }
 
 
+@checked_class
 @dataclass(frozen=True)
 class SciPyIVP(Integrator):
     """SciPy's solvers for stiff equations, with the equations of motion by Pinocchio.

@@ -9,6 +9,7 @@ import numpy as np
 
 from offwind_pin.analysis.engines import check_engine, pencil
 from offwind_pin.analysis.static import StaticResult, static
+from offwind_pin.base.arguments import checked
 from offwind_pin.base.definition import Array
 from offwind_pin.base.descriptions import cut, html_table
 from offwind_pin.base.errors import InputError
@@ -208,6 +209,7 @@ class ModalResult:
         return list(FAMILIES)[int(np.argmax(self.participation[self.index(label)]))]
 
 
+@checked
 def modes(
     system: System,
     n: int = 8,

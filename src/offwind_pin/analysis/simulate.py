@@ -24,6 +24,7 @@ from offwind_pin.analysis.integrators import (
 )
 from offwind_pin.analysis.static import static
 from offwind_pin.analysis.wave_checks import check_waves, wave_facts
+from offwind_pin.base.arguments import checked
 from offwind_pin.base.channels import Channel
 from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError, InterruptedSimulation, SolverError
@@ -56,6 +57,7 @@ _BLOCK_STEPS = 2000
 """A block ends with an output and is no longer than either; a killed run loses at most one."""
 
 
+@checked
 def simulate(
     system: System,
     duration: float,

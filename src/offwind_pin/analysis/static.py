@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from offwind_pin.analysis.engines import resting_chain
+from offwind_pin.base.arguments import checked
 from offwind_pin.base.definition import Array
 from offwind_pin.base.descriptions import html_table
 from offwind_pin.base.errors import InputError, SolverError
@@ -207,6 +208,7 @@ class StaticResult:
         return int(np.argmin(np.abs(self.height - self.mudline)))
 
 
+@checked
 def static(
     system: System,
     tower_top_load: Array | None = None,

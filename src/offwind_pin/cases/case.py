@@ -9,6 +9,7 @@ from pydantic import AfterValidator, BeforeValidator, Field, ValidationInfo, mod
 
 from offwind_pin.analysis.build import build
 from offwind_pin.analysis.foundation.registry import FOUNDATIONS
+from offwind_pin.base.arguments import checked
 from offwind_pin.base.definition import (
     Definition,
     Integer,
@@ -295,6 +296,7 @@ class Case(Definition):
         return build(self.turbine, made, self.water, elements=elements, element=self.element)
 
 
+@checked
 def load_case(name_or_path: str | Path) -> Case:
     """A case by shipped name or from a YAML file; relative paths in it start at its folder.
 

@@ -25,6 +25,7 @@ from offwind_pin.analysis.modal import ModalResult, modes
 from offwind_pin.analysis.sea_data import waves_dataset
 from offwind_pin.analysis.simulate import simulate
 from offwind_pin.analysis.static import StaticResult, static
+from offwind_pin.base.arguments import checked
 from offwind_pin.base.errors import InterruptedSimulation, SolverError
 from offwind_pin.base.whole_files import add_groups, write_json, write_netcdf, write_text
 from offwind_pin.cases.case import (
@@ -76,6 +77,7 @@ class _Solved:
     simulated: float = 0.0
 
 
+@checked
 def run_case(
     case: Case | str | Path,
     out: Path | str,

@@ -15,6 +15,7 @@ import typer
 
 from offwind_pin.analysis.foundation.registry import FOUNDATIONS
 from offwind_pin.cases.shipped import shipped_cases
+from offwind_pin.cli.arguments import integer_option, naming, number_option, say
 from offwind_pin.cli.exit_codes import EXIT_INPUT, EXIT_SOLVER, EXIT_SYSTEM
 from offwind_pin.definitions.element import Element
 from offwind_pin.definitions.engine import Engine
@@ -79,7 +80,7 @@ FoundationOption = Annotated[
     typer.Option(help=f"One of {', '.join(FOUNDATIONS)}.", autocompletion=_complete_foundation),
 ]
 ElementsOption = Annotated[
-    int | None, typer.Option(help="Total number of multibody beam elements.")
+    int | None, integer_option("Total number of multibody beam elements.")
 ]
 ElementOption = Annotated[
     Element, typer.Option(help="euler_bernoulli, or timoshenko to include shear.")
@@ -91,6 +92,7 @@ JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON instead of 
 
 
 @app.command()
+@naming("turbine")
 def show(turbine: TurbineArgument, as_json: JsonOption = False) -> None:  # noqa: FBT002
     """Summarise the turbine as read: masses, lengths, frequencies."""
     from offwind_pin.cases.turbine_overview import overview
@@ -105,13 +107,17 @@ def show(turbine: TurbineArgument, as_json: JsonOption = False) -> None:  # noqa
 
 
 @app.command("modes")
+@naming("turbine")
 def modes_command(
     turbine: TurbineArgument,
     foundation: FoundationOption = "distributed_springs",
     dry: Annotated[bool, typer.Option("--dry", help="Without water.")] = False,  # noqa: FBT002
     elements: ElementsOption = None,
     element: ElementOption = "euler_bernoulli",
-    count: Annotated[int | None, typer.Option(help="Number of modes, by default 8.")] = None,
+    count: Annotated[
+        int | None,
+        integer_option("Number of modes, by default 8."),
+    ] = None,
     engine: EngineOption = "compiled",
     as_json: JsonOption = False,  # noqa: FBT002
 ) -> None:
@@ -142,6 +148,7 @@ def modes_command(
 
 
 @app.command("static")
+@naming("turbine")
 def static_command(
     turbine: TurbineArgument,
     foundation: FoundationOption = "distributed_springs",
@@ -173,6 +180,7 @@ def static_command(
 
 
 @app.command("soil")
+@naming("turbine")
 def soil_command(
     turbine: TurbineArgument,
     out: Annotated[
@@ -187,7 +195,7 @@ def soil_command(
     ] = None,
     arm: Annotated[
         float | None,
-        typer.Option(help="Height of the pushover load above the mudline in m [yaw bearing]."),
+        number_option("Height of the pushover load above the mudline in m [yaw bearing]."),
     ] = None,
     elements: ElementsOption = None,
     as_json: JsonOption = False,  # noqa: FBT002
@@ -211,10 +219,11 @@ def soil_command(
         return
     print_soil(found)
     for path in written:
-        typer.echo(f"Wrote {path}")
+        say(f"Wrote {path}")
 
 
 @app.command()
+@naming("case")
 def run(
     case: Annotated[
         list[str],
@@ -231,7 +240,7 @@ def run(
         ),
     ],
     seed: Annotated[
-        int | None, typer.Option(help="Seed of everything random, in place of the case's.")
+        int | None, integer_option("Seed of everything random, in place of the case's.")
     ] = None,
     seeds: Annotated[str | None, typer.Option(help="Several seeds: 1-6, or 1,4,7-9.")] = None,
     overwrite: Annotated[  # noqa: FBT002
@@ -273,14 +282,14 @@ def run(
         except (InputError, SolverError) as error:
             if len(runs) == 1:
                 raise
-            typer.echo(f"offwind: {planned.directory}: {error}", err=True)
+            say(f"offwind: {planned.directory}: {error}", error=True)
             codes.append(EXIT_INPUT if isinstance(error, InputError) else EXIT_SOLVER)
             summary = {"case": planned.case.name, "status": "failed", "message": str(error)}
         rows.append({"directory": str(planned.directory), "seed": planned.case.seed, **summary})
         if not as_json and summary["status"] == "complete":
             print_values(planned.case.title or planned.case.name, summary)
             if report:
-                typer.echo(f"Report: {planned.directory / 'report.html'}")
+                say(f"Report: {planned.directory / 'report.html'}")
     if as_json:
         _print_json(summary if len(runs) == 1 else {"runs": rows})
     if codes:
@@ -304,10 +313,11 @@ def report_command(
             "Give the --out directory of offwind run.",
         )
     check_writable(directory)
-    typer.echo(f"Wrote {report_again(directory)}")
+    say(f"Wrote {report_again(directory)}")
 
 
 @app.command("animate")
+@naming("turbine")
 def animate_command(
     turbine: TurbineArgument,
     html: Annotated[Path, typer.Option(help="File to write.")],
@@ -323,10 +333,11 @@ def animate_command(
     _check_target("--html", html, "fa2.html")
     results = _modes_of(turbine, foundation, dry=dry, element=element)
     write_text(html, View(results, labels=[mode.upper()]).page())
-    typer.echo(f"Wrote {html}")
+    say(f"Wrote {html}")
 
 
 @app.command("view")
+@naming("source")
 def view_command(
     source: Annotated[
         str,
@@ -337,11 +348,9 @@ def view_command(
     frames: Annotated[
         Path | None, typer.Option(help="New directory for numbered frames of a film.")
     ] = None,
-    fps: Annotated[float | None, typer.Option(help="Frames per second, by default 25.")] = None,
-    start: Annotated[float | None, typer.Option(help="Start of the part shown, in s.")] = None,
-    duration: Annotated[
-        float | None, typer.Option(help="Duration of the part shown, in s.")
-    ] = None,
+    fps: Annotated[float | None, number_option("Frames per second, by default 25.")] = None,
+    start: Annotated[float | None, number_option("Start of the part shown, in s.")] = None,
+    duration: Annotated[float | None, number_option("Duration of the part shown, in s.")] = None,
     mode_list: Annotated[
         str | None, typer.Option("--modes", help="Modes side by side, up to four: FA1,SS1,FA2,SS2.")
     ] = None,
@@ -349,7 +358,7 @@ def view_command(
         str, typer.Option(help="Foundation of a turbine; ignored for results.")
     ] = "distributed_springs",
     dry: Annotated[bool, typer.Option("--dry", help="Without water, for a turbine.")] = False,  # noqa: FBT002
-    port: Annotated[int, typer.Option(help="Port of the page; 0 for any free one.")] = 0,
+    port: Annotated[int, integer_option("Port of the page; 0 for any free one.")] = 0,
     browser: Annotated[bool, typer.Option(help="Open the page in a browser.")] = True,  # noqa: FBT002
 ) -> None:
     """Animate results: on a local page until Ctrl-C, or in files."""
@@ -375,20 +384,20 @@ def view_command(
     view = View(results, start, duration, labels)
     if html is not None:
         write_text(html, view.page())
-        typer.echo(f"Wrote {html}")
+        say(f"Wrote {html}")
     if still is not None:
         view.still(still)
-        typer.echo(f"Wrote {still}")
+        say(f"Wrote {still}")
     if frames is not None:
         rate = FPS if fps is None else fps
         with frames_progress() as progress:
             view.film(frames, rate, progress)
-        typer.echo(f"Wrote {frames}; to make a film:")
+        say(f"Wrote {frames}; to make a film:")
         pattern, name = (
             shlex.quote(str(path)) for path in (frames / "frame_%05d.png", frames.name)
         )
         film = f"ffmpeg -framerate {rate:g} -i {pattern} -pix_fmt yuv420p {name}.mp4"
-        typer.echo(film)
+        say(film)
     if (html, still, frames) == (None, None, None):
         serve(view.page(), port, browser=browser)
 
@@ -434,6 +443,7 @@ def _modes_of(
 
 
 @app.command()
+@naming("turbine")
 def urdf(
     turbine: TurbineArgument,
     out: Annotated[Path, typer.Option(help="Directory for the URDF, its meshes and sidecar.")],
@@ -450,7 +460,7 @@ def urdf(
     check_writable(out)
     system = build(load_turbine(turbine), foundation, elements=elements, element=element)
     for path in export_urdf(system, out):
-        typer.echo(f"Wrote {path}")
+        say(f"Wrote {path}")
 
 
 @app.command("verify")
@@ -502,16 +512,17 @@ def _numbers(text: str, option: str) -> Array:
     import numpy as np
 
     from offwind_pin.base.errors import InputError
+    from offwind_pin.base.number_tables import parse_number
 
-    try:
-        return np.array([float(cell) for cell in text.split(",")])
-    except ValueError:
+    numbers = [parse_number(cell.strip()) for cell in text.split(",")]
+    if None in numbers:
         raise InputError(
             option,
             text,
             "six finite numbers FX,FY,FZ,MX,MY,MZ in N and N m",
             "Separate them by commas: 1e6,0,0,0,0,0.",
-        ) from None
+        )
+    return np.array(numbers, dtype=float)
 
 
 def _check_target(option: str, path: Path, example: str) -> None:

@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 from rich.console import Console
 from rich.table import Table
+from rich.text import Text
 
+from offwind_pin.base.errors import printable
 from offwind_pin.base.mode_labels import mode_name
 
 if TYPE_CHECKING:
@@ -15,6 +17,16 @@ if TYPE_CHECKING:
     from offwind_pin.cases.turbine_overview import Overview
     from offwind_pin.dynamics.system import System
     from offwind_pin.verification.ledger import Outcome
+
+
+class _Plain(Console):
+    """Standard output, where text of users and paths is neither markup nor control characters."""
+
+    def __init__(self) -> None:
+        super().__init__(markup=False, emoji=False)
+
+    def render_str(self, text: str, **settings: Any) -> Text:
+        return super().render_str("\n".join(map(printable, text.split("\n"))), **settings)
 
 
 def print_modes(title: str, rows: Sequence[Mapping[str, Any]]) -> None:
@@ -28,7 +40,7 @@ def print_modes(title: str, rows: Sequence[Mapping[str, Any]]) -> None:
             f"{100 * row['damping_ratio']:.2f} %",
             f"{row['shape_peak_height_ratio']:.2f} of height",
         )
-    Console().print(table)
+    _Plain().print(table)
 
 
 def print_values(title: str, summary: Mapping[str, Any]) -> None:
@@ -37,12 +49,12 @@ def print_values(title: str, summary: Mapping[str, Any]) -> None:
     for key, value in summary.items():
         if isinstance(value, int | float | str):
             table.add_row(key, f"{value:.6g}" if isinstance(value, float) else str(value))
-    Console().print(table)
+    _Plain().print(table)
 
 
 def print_surrogate(surrogate: str | None) -> None:
     if surrogate:
-        Console().print(f"Surrogate soil: {surrogate}", style="yellow")
+        _Plain().print(f"Surrogate soil: {surrogate}", style="yellow")
 
 
 def print_notes(system: System) -> None:
@@ -53,19 +65,19 @@ def print_notes(system: System) -> None:
     damping = summarise_damping(system)
     if not damping["asked"]:
         text = "No structural damping: the turbine file has no structural_damping block."
-        Console().print(text, style="yellow")
+        _Plain().print(text, style="yellow")
     for label, asked in damping["asked"].items():
         achieved = damping["achieved"][label]
         if abs(achieved / asked - 1) > 0.05:
             text = f"Damping of {label}: {asked:.4g} requested, {achieved:.4g} achieved."
-            Console().print(text, style="yellow")
+            _Plain().print(text, style="yellow")
 
 
 def print_outcomes(outcomes: Sequence[Outcome]) -> None:
     """One table per group, and the failures repeated at the end."""
     from offwind_pin.verification.page import outcome_cells
 
-    console = Console()
+    console = _Plain()
     for group in dict.fromkeys(outcome.row.group for outcome in outcomes):
         table = Table("row", "value", "difference", "tolerance", "", title=f"\n{group}", box=None)
         table.title_justify = "left"
@@ -81,7 +93,7 @@ def print_outcomes(outcomes: Sequence[Outcome]) -> None:
         if outcome.status != "pass":
             text = f"{outcome.row.id}: {outcome.status}, {outcome.row.quantity}"
             text += "" if outcome.reason is None else f" ({outcome.reason})"
-            console.print(text, soft_wrap=True, markup=False)
+            console.print(text, soft_wrap=True)
 
 
 _OUTCOME_STYLE = {"pass": "", "fail": "bold red", "not run": "yellow"}
@@ -90,7 +102,7 @@ _OUTCOME_STYLE = {"pass": "", "fail": "bold red", "not run": "yellow"}
 def print_soil(overview: SoilOverview) -> None:
     from offwind_pin.display.report.soil_report import soil_tables
 
-    console = Console()
+    console = _Plain()
     for title, columns, rows in soil_tables(overview):
         table = Table(*columns, title=title, title_justify="left", show_header=any(columns))
         for column in table.columns[1:]:
@@ -101,12 +113,12 @@ def print_soil(overview: SoilOverview) -> None:
     if overview.state is not None:
         console.print(f"State: {overview.state.origin}", soft_wrap=True)
     for text in (*overview.foundation.cautions, *overview.remarks):
-        console.print(text, style="yellow", markup=False)
+        console.print(text, style="yellow")
     print_surrogate(overview.foundation.surrogate)
 
 
 def print_overview(facts: Overview) -> None:
-    console = Console()
+    console = _Plain()
     for title, rows in facts.tables():
         table = Table(title=title, show_header=False, title_justify="left")
         for name, value in rows:

@@ -9,17 +9,20 @@ from typing import Any, TypeVar
 
 from pydantic import ValidationError
 
+from offwind_pin.base.arguments import checked
 from offwind_pin.base.definition import Definition
 from offwind_pin.base.errors import InputError
 from offwind_pin.base.input_files import is_file
 from offwind_pin.base.validation import input_error
 from offwind_pin.base.yaml_files import read_yaml
+from offwind_pin.definitions.other_files import other_kind
 from offwind_pin.definitions.shipped import shipped_turbines
 from offwind_pin.definitions.turbine import Turbine
 
 Kind = TypeVar("Kind", bound=Definition)
 
 
+@checked
 def load_turbine(name_or_path: str | Path) -> Turbine:
     """Turbine definition by shipped name or from a YAML file.
 
@@ -66,7 +69,14 @@ def read_definition(path: Path, kind: type[Kind]) -> Kind:
     InputError
         The file is empty, not YAML, or does not fit the definition.
     """
-    return definition_of(read_yaml(path), path, kind)
+    try:
+        return definition_of(read_yaml(path), path, kind)
+    except InputError:
+        wanted = kind.__name__.lower()
+        other = other_kind(path, wanted)
+        if other is None:
+            raise
+        raise InputError(str(path), other[0], f"a {wanted} file", f"{other[1]}.") from None
 
 
 def definition_of(data: dict[str, Any], path: Path, kind: type[Kind]) -> Kind:

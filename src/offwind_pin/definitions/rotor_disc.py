@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from offwind_pin.base.arguments import checked
 from offwind_pin.base.errors import InputError
 from offwind_pin.definitions.rotor import GEOMETRY, Rotor
 from offwind_pin.definitions.rotor_nacelle import rotor_radius
@@ -72,6 +73,7 @@ class RotorDisc:
         return float(np.interp(wind_speed, table.wind_speed, table.value)) * np.pi / 30
 
 
+@checked
 def rotor_disc(turbine: Turbine) -> RotorDisc:
     """The disc of a turbine's rotor.
 

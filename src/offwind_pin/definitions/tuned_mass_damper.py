@@ -8,6 +8,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
+from offwind_pin.base.arguments import checked
 from offwind_pin.base.definition import Definition, NonNegative, Positive
 from offwind_pin.base.errors import InputError
 from offwind_pin.definitions.hydrodynamics import Height
@@ -90,6 +91,7 @@ class DampedAbsorber:
     amplification: float
 
 
+@checked
 def den_hartog(mass_ratio: float) -> DampedAbsorber:
     """Optimum tuned mass damper under a harmonic force on the structure.
 

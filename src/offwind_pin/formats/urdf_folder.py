@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from offwind_pin.base.arguments import checked
 from offwind_pin.base.whole_files import whole_file, write_json, write_text
 from offwind_pin.dynamics.system import System
 from offwind_pin.structure.urdf import urdf_text, write_meshes, write_sidecar
 
 
+@checked
 def export_urdf(system: System, out: Path) -> list[Path]:
     """Write ``NAME.urdf``, ``NAME.json`` and ``meshes/`` to a folder.
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import xarray as xr
 
+from offwind_pin.base.arguments import checked
 from offwind_pin.base.definition import file_digest
 from offwind_pin.base.errors import InputError
 from offwind_pin.results.inventory import fault_of
@@ -16,6 +17,7 @@ from offwind_pin.results.tree import TITLES
 _REMEDY = "Name the output directory of `offwind run` or its results.nc, or run the case again."
 
 
+@checked
 def open_results(source: Path | str) -> xr.DataTree:
     """The results of a run as a tree, read channel by channel on demand.
 

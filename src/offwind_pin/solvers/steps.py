@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Protocol
 
+from offwind_pin.base.arguments import checked_class
 from offwind_pin.base.errors import InputError
 
 MOST_STEPS = 100_000
@@ -76,6 +77,7 @@ class StepPolicy(Protocol):
         """
 
 
+@checked_class
 @dataclass(frozen=True)
 class FixedStep(StepPolicy):
     """Steps of one size; an interval in which a step fails is repeated with half the step.
@@ -111,6 +113,7 @@ class FixedStep(StepPolicy):
         return {"step_policy": "fixed", "dt_s": self.dt}
 
 
+@checked_class
 @dataclass(frozen=True)
 class AdaptiveStep(StepPolicy):
     """Steps halved where the local error exceeds a tolerance, doubled where it is far below.

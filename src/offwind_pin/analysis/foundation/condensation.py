@@ -10,6 +10,7 @@ import numpy as np
 
 from offwind_pin.analysis.foundation.pile_only import pile_part
 from offwind_pin.analysis.static import StaticResult, load_scale, static
+from offwind_pin.base.arguments import checked
 from offwind_pin.base.definition import Array
 from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError
@@ -98,6 +99,7 @@ class Condensation:
         return turbine.model_copy(update={"soil": soil})
 
 
+@checked
 def condense(
     system: System, about: StaticResult, *, stiffness: CondensedStiffness = "tangent"
 ) -> Condensation:

@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
+from offwind_pin.base.arguments import checked
 from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError
 from offwind_pin.loads.point_load import KernelLoad
@@ -20,6 +21,7 @@ _COLUMNS = 21
 """Number of columns of the motion of a point."""
 
 
+@checked
 def equivalent_damping(
     springs: SoilSprings, amplitudes: ArrayLike, frequencies: ArrayLike, *, node: int
 ) -> xr.Dataset:

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from offwind_pin.base.arguments import checked
 from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError
 from offwind_pin.definitions.rotor_nacelle import lump_rna
@@ -24,6 +25,7 @@ _NOTHING = RigidBodyRNA(
 """Mass on the pile in place of a rotor-nacelle assembly: a gram on a pile of 1000 t."""
 
 
+@checked
 def pile_only(turbine: Turbine, stick_up: float = 0.0) -> Turbine:
     """The bare pile of a turbine, without structural damping.
 

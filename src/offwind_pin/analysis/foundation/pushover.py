@@ -9,6 +9,7 @@ import numpy as np
 from offwind_pin.analysis.assemble import assemble
 from offwind_pin.analysis.foundation.pile_only import pile_only
 from offwind_pin.analysis.static import axis_rotation, load_scale
+from offwind_pin.base.arguments import checked
 from offwind_pin.base.definition import Array
 from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError, SolverError
@@ -62,6 +63,7 @@ class Pushover:
     __repr__ = one_line
 
 
+@checked
 def pushover(
     turbine: Turbine,
     arm: float,

@@ -12,6 +12,7 @@ from scipy.stats.qmc import Halton
 
 from offwind_pin.analysis.updating.definition_path import number_at, with_number
 from offwind_pin.analysis.updating.targets import Responses, Target
+from offwind_pin.base.arguments import checked
 from offwind_pin.base.definition import Array
 from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError
@@ -206,6 +207,7 @@ class SoilIdentification:
         return self.chi_square <= chi2.isf(SIGNIFICANCE, len(self.jacobian))
 
 
+@checked
 def identify_soil(
     turbine: Turbine,
     targets: Sequence[Target],

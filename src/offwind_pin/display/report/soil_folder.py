@@ -8,6 +8,7 @@ from io import StringIO
 from pathlib import Path
 
 from offwind_pin.analysis.foundation.study.study import SoilOverview
+from offwind_pin.base.arguments import checked
 from offwind_pin.base.whole_files import write_json, write_text
 from offwind_pin.display.report.soil_report import STIFFNESS_NAMES, render_soil_page
 from offwind_pin.formats.openfast.subdyn_soildyn import write_soildyn, write_subdyn_ssi
@@ -16,6 +17,7 @@ _LATERAL = ("depth_m", "y_m", "p_n_per_m")
 _OTHER = ("spring", "depth_m", "deflection", "deflection_unit", "resistance", "resistance_unit")
 
 
+@checked
 def write_soil(soil: SoilOverview, directory: Path) -> list[Path]:
     """Write page, JSON, curves and 6x6 files, each file atomically.
 

@@ -8,6 +8,7 @@ from typing import Literal
 
 import numpy as np
 
+from offwind_pin.base.arguments import checked_class
 from offwind_pin.base.definition import Array
 from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError
@@ -23,6 +24,7 @@ _MANY = 20
 """Number of steps from which a record counts as sampled rather than as a hand-written table."""
 
 
+@checked_class
 @dataclass(frozen=True, eq=False)
 class GroundMotion:
     """Acceleration of the ground, linear between samples, with the resulting motion.

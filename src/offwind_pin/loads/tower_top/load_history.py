@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from offwind_pin.base.arguments import checked, checked_class
 from offwind_pin.base.channels import Channel
 from offwind_pin.base.definition import Array, origin_of
 from offwind_pin.base.errors import InputError
@@ -24,6 +25,7 @@ TOWER_TOP_LOAD = Channel(
 )
 
 
+@checked_class
 @dataclass(frozen=True, eq=False)
 class LoadHistory:
     """Samples of a load at the yaw bearing.
@@ -192,6 +194,7 @@ def constant_load(yaw_bearing: float, load: Array) -> TowerTopLoad:
     return TowerTopLoad(yaw_bearing, history, load)
 
 
+@checked
 def read_load_history(path: Path) -> LoadHistory:
     """Read a file of seven columns t, Fx, Fy, Fz, Mx, My, Mz in s, N and N m.
 

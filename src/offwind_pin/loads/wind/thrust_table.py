@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from offwind_pin.base.arguments import checked
 from offwind_pin.base.definition import Array
 from offwind_pin.base.kernels import kernel
 from offwind_pin.definitions.rotor_disc import RotorDisc, rotor_disc
@@ -73,6 +74,7 @@ class ThrustTable:
         return float(value), float(slope)
 
 
+@checked
 def thrust_curve(rotor: Turbine | RotorDisc, wind_speeds: Array) -> Array:
     """Steady thrust over the wind speed.
 

@@ -9,6 +9,7 @@ from typing import Annotated
 import numpy as np
 from pydantic import Field
 
+from offwind_pin.base.arguments import checked
 from offwind_pin.base.definition import (
     Array,
     Direction,
@@ -115,6 +116,7 @@ class TowerDrag(KernelLoad):
         return rows
 
 
+@checked
 def tower_drag(system: Structure, wind: TowerWind) -> TowerDrag:
     """Drag of a wind on a system's structure, for ``simulate(loads=[...])`` and ``static``.
 

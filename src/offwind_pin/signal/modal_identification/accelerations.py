@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from offwind_pin.base.arguments import checked
 from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError
 from offwind_pin.base.number_tables import Lines, check_time_unit, parse_number, read_csv
@@ -76,6 +77,7 @@ class Accelerations:
         return Accelerations(self.time, tuple(names), self.values[:, columns])
 
 
+@checked
 def read_accelerations(path: Path | str, factor: float | None = None) -> Accelerations:
     """Read accelerations from a CSV file: a header, the time in s first, one column per channel.
 

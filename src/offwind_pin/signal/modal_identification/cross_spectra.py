@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from offwind_pin.base.arguments import checked
 from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError
 
@@ -52,6 +53,7 @@ class CrossSpectra:
         return len(self.window) / self.sample_rate
 
 
+@checked
 def cross_spectral_matrix(
     acceleration: Array,
     sample_rate: float,

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from offwind_pin.base.arguments import checked
 from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError
 
@@ -79,6 +80,7 @@ class FreeDecay:
     __repr__ = one_line
 
 
+@checked
 def free_decay(
     values: Array,
     dt: float,

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from offwind_pin.base.arguments import checked
 from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError
 from offwind_pin.signal.modal_identification.cross_spectra import (
@@ -95,6 +96,7 @@ class OperationalModes:
     __repr__ = one_line
 
 
+@checked
 def operational_modes(
     acceleration: Array,
     sample_rate: float,

@@ -5,12 +5,14 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from offwind_pin.base.arguments import checked
 from offwind_pin.base.errors import InputError
 
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 
+@checked
 def modal_assurance(a: ArrayLike, b: ArrayLike) -> Array:
     """Modal assurance criterion of every shape of one set with every shape of another.
 

@@ -40,6 +40,7 @@ from offwind_pin.analysis.foundation.study.tabulate import (
     units_of,
 )
 from offwind_pin.analysis.static import static
+from offwind_pin.base.arguments import checked
 from offwind_pin.base.definition import Array
 from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError, SolverError
@@ -287,6 +288,7 @@ class SoilOverview:
         }
 
 
+@checked
 def soil_overview(
     turbine: Turbine,
     *,
