@@ -62,7 +62,7 @@ def open_case(source: Path | str) -> xr.DataTree:
     Raises
     ------
     InputError
-        As there; or only the main dataset is present.
+        As for :func:`open_results`; or only the main dataset is present.
     """
     tree = open_checked(source)
     if "case" not in tree.children:
