@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from offwind_pin.analysis.assemble import assemble
 from offwind_pin.analysis.foundation.registry import make_foundation
-from offwind_pin.analysis.structural_damping import StructuralDamping, calibrate_damping
+from offwind_pin.analysis.structural_damping import damped
 from offwind_pin.base.errors import InputError
 from offwind_pin.definitions.element import Element
 from offwind_pin.definitions.turbine import Turbine
@@ -23,7 +25,7 @@ def build(
     stiffness: Stiffness = "flexibility",
     element: Element = "euler_bernoulli",
 ) -> System:
-    """Chain, foundation and sea of a turbine as one system, its structural damping calibrated.
+    """Chain, foundation and sea of a turbine as one system, with its structural damping.
 
     Parameters
     ----------
@@ -54,34 +56,29 @@ def build(
     )
     if turbine.structural_damping is None:
         return system
-    damping = structural_damping(turbine, element)
-    joints = system.joint_damping.copy()
-    joints[system.chain.roots : system.chain.axis_joints] = damping.of(system.chain).ravel()
-    return system.with_damping(joints, damping.achieved)
 
-
-def structural_damping(turbine: Turbine, element: Element = "euler_bernoulli") -> StructuralDamping:
-    """Damping factors of a turbine, calibrated on the foundation and in the water it names.
-
-    Tuned mass dampers are locked there: what is calibrated is the damping of the structure.
-    """
-    calibration = turbine.structural_damping
-    if calibration is None:
-        raise InputError(
-            f"turbine {turbine.name}, field structural_damping",
-            "nothing",
-            "ratios of critical for named modes",
-            "Add the block, or leave the structure undamped.",
+    def reference(kind: str | None, still_water: bool | None) -> System:
+        wet = sea is not None if still_water is None else still_water
+        level = 0.0 if sea is None else sea.water_level
+        locked = turbine.with_dampers_locked()
+        if kind is not None:
+            held, division = make_foundation(locked, kind), None
+        else:
+            held, division = _locked(system.foundation), elements
+        return assemble(
+            locked,
+            held,
+            StillWater(water_level=level) if wet else None,
+            elements=division,
+            stiffness=stiffness,
+            element=element,
         )
-    if calibration.foundation == "coupled_springs" and turbine.site.scour_depth != 0:
-        raise InputError(
-            f"turbine {turbine.name}, field structural_damping.foundation",
-            f"coupled_springs with a scour_depth_m of {turbine.site.scour_depth:g}",
-            "clamped, or no scour: the 6x6 belongs to the original mudline",
-            "Calibrate the structure's damping on clamped.",
-        )
-    sea = StillWater() if calibration.still_water else None
-    turbine = turbine.with_dampers_locked()
-    held = make_foundation(turbine, calibration.foundation)
-    undamped = assemble(turbine, held, sea, element=element)
-    return calibrate_damping(undamped, calibration)
+
+    return damped(system, turbine.structural_damping, reference)
+
+
+def _locked(foundation: Foundation) -> Foundation:
+    """A foundation whose own structure, if it has one, has its tuned mass dampers locked."""
+    if foundation.structure is None:
+        return foundation
+    return replace(foundation, structure=foundation.structure.with_dampers_locked())

@@ -11,7 +11,7 @@ from collections.abc import Iterable
 from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import Field, model_validator
+from pydantic import BeforeValidator, Field, model_validator
 
 from offwind_pin.base.definition import Definition, NonNegative, Number, Positive, Vector3
 from offwind_pin.base.descriptions import html_table
@@ -20,6 +20,7 @@ from offwind_pin.definitions.hydrodynamics import Height, Hydrodynamics
 from offwind_pin.definitions.rotor import GEOMETRY, Rotor
 from offwind_pin.definitions.section import Section
 from offwind_pin.definitions.soil.springs import Soil
+from offwind_pin.definitions.structural_damping import StructuralDamping, with_kind
 from offwind_pin.definitions.tuned_mass_damper import TunedMassDamper
 
 Angle = Annotated[Number, Field(ge=-30, le=30)]
@@ -215,16 +216,6 @@ class Site(Definition):
         return -(self.water_depth + self.scour_depth)
 
 
-class DampingCalibration(Definition):
-    """Structural damping: the ratios that modes of the supported structure shall reach."""
-
-    foundation: Literal["clamped", "coupled_springs"]
-    still_water: bool
-    ratios: dict[
-        Annotated[str, Field(pattern=r"^(FA|SS|T|V)[1-9]$")], Annotated[Positive, Field(lt=1)]
-    ] = Field(alias="ratios_of_critical", min_length=1)
-
-
 def _range(values: Iterable[float]) -> str:
     lowest, *_, highest = sorted(values)
     return f"{lowest:g}" if lowest == highest else f"{lowest:g} to {highest:g}"
@@ -244,7 +235,9 @@ class Turbine(Definition):
     rotor: Rotor | None = None
     hydrodynamics: Hydrodynamics
     soil: Soil
-    structural_damping: DampingCalibration | None = None
+    structural_damping: Annotated[
+        StructuralDamping | None, BeforeValidator(with_kind)
+    ] = None
 
     def __repr__(self) -> str:
         return (

@@ -34,6 +34,8 @@ class System:
     sea : None for a dry structure
     joint_stiffness, joint_damping : (nv,) of the chain's springs and dampers, zero at the root
     damping_ratios : achieved ratios of the calibrated modes by label, for the record
+    structural_loads : structural damping that acts between the structure and the inertial frame
+    damping_cautions : sentences about structural damping that differs from what was asked for
     """
 
     turbine: Turbine
@@ -43,6 +45,8 @@ class System:
     joint_stiffness: Array
     joint_damping: Array
     damping_ratios: dict[str, float]
+    structural_loads: tuple[PointLoad, ...] = ()
+    damping_cautions: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
         sea = "dry" if self.sea is None else type(self.sea).__name__
@@ -96,9 +100,21 @@ class System:
         """The sea as the structure meets it, realised once; None for a dry structure."""
         return None if self.sea is None else HydrodynamicModel.of(self.turbine, self.sea)
 
-    def with_damping(self, joint_damping: Array, ratios: dict[str, float]) -> System:
-        """The same system with other joint dampers."""
-        return replace(self, joint_damping=joint_damping, damping_ratios=ratios)
+    def with_damping(
+        self,
+        joint_damping: Array,
+        ratios: dict[str, float],
+        structural_loads: tuple[PointLoad, ...] = (),
+        cautions: tuple[str, ...] = (),
+    ) -> System:
+        """The same system with other structural damping."""
+        return replace(
+            self,
+            joint_damping=joint_damping,
+            damping_ratios=ratios,
+            structural_loads=structural_loads,
+            damping_cautions=cautions,
+        )
 
     def equations(
         self,

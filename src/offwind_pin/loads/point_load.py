@@ -193,7 +193,9 @@ class PointLoad(ABC):
 
     moves_with_ground: ClassVar[bool] = False
     """Whether displacements and velocities are relative to the ground in an earthquake, as those of
-    the soil are; its forces are recorded as ``soil_force``."""
+    the soil are."""
+    records_soil_force: ClassVar[bool] = True
+    """Whether the forces of a load that moves with the ground are recorded as ``soil_force``."""
     if TYPE_CHECKING:  # fields or properties of the loads themselves
 
         @property
@@ -281,6 +283,15 @@ class KernelLoad(PointLoad):
     @abstractmethod
     def constants(self) -> Array:
         """(n, c) numbers of each point that do not change."""
+
+    @property
+    def coupling(self) -> tuple[Array, Array] | None:
+        """Damping between its points, of which the tangents know nothing, or None.
+
+        (k, n, 6) wrenches and (k,) rates of dampers, see
+        :class:`offwind_pin.loads.structural.coupled_damping.CoupledDamping`.
+        """
+        return None
 
     @property
     def memory_size(self) -> int:
@@ -398,6 +409,23 @@ class GroupedLoad(PointLoad):
             (points, load, past)
             for (points, load), past in zip(self.groups, np.split(whole, ends), strict=True)
         ]
+
+
+def dissipated_power(load: KernelLoad, blocks: Array, rate: Array) -> float:
+    """Power that a load dissipates by linear damping, in W.
+
+    Parameters
+    ----------
+    blocks : (n, 7, 3, 3) derivatives of forces and moments at its points
+    rate : (n, 6) velocity and spin of its points in m/s and rad/s
+    """
+    velocity, spin = rate[:, :3], rate[:, 3:]
+    power = -np.einsum("ni,nij,nj", velocity, blocks[:, BY_VELOCITY], velocity)
+    power -= np.einsum("ni,nij,nj", spin, blocks[:, MOMENT_BY_SPIN], spin)
+    if load.coupling is not None:
+        wrench, damper = load.coupling
+        power += np.sum(damper * np.einsum("knj,nj->k", wrench, rate) ** 2)
+    return float(power)
 
 
 def joined_attributes(loads: Sequence[PointLoad]) -> dict[str, str]:

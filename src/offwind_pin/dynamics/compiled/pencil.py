@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import numpy as np
 
 from offwind_pin.base.definition import Array
@@ -9,7 +11,9 @@ from offwind_pin.dynamics.compiled.chain import CompiledChain
 from offwind_pin.dynamics.compiled.matrix_products import multiply
 from offwind_pin.dynamics.compiled.model import Factorisation
 from offwind_pin.dynamics.compiled.newton_matrix import assemble
+from offwind_pin.loads.point_load import POSITION, dissipated_power
 from offwind_pin.solvers.eigen import lowest_modes
+from offwind_pin.structure.chain import dof_body
 
 _LARGE = 1e12
 """In 1/s and 1/s2: beside it the stiffness is nearly rounding, and the rest is subtracted."""
@@ -44,7 +48,9 @@ class CompiledPencil:
 
     def damping_times(self, vectors: Array) -> Array:
         """(nv, n) of the same shape."""
-        return (self._times(vectors, _LARGE, 0.0) - self._times(vectors, 0.0, 0.0)) / _LARGE
+        of_points = self._times(vectors, _LARGE, 0.0) - self._times(vectors, 0.0, 0.0)
+        rows, rate = self._coupling
+        return of_points / _LARGE + rows.T @ (rate * (rows @ vectors).T).T
 
     def matrices(self) -> tuple[Array, Array, Array]:
         """Mass, damping and stiffness, (nv, nv) each."""
@@ -57,14 +63,77 @@ class CompiledPencil:
 
     def axis_shape(self, vector: Array, height: Array) -> Array:
         """(m, 6) displacement and rotation of the axis at heights (m,) per unit of a vector."""
-        chain, data = self._chain.system.chain, self._chain.data
-        moved = data.joint[: chain.axis_joints] * vector[: chain.axis_joints, None]
-        twists = np.vstack([np.zeros(6), np.cumsum(moved, axis=0)])
-        body = chain.body_at(height)
-        twist = twists[chain.roots + len(chain.node_joints) * body]
-        arm = (height - chain.origin[body])[:, None] * data.rotation[body, :, 2]
-        position = data.position[body] + arm
+        twist = self._twists(vector)[self._chain.system.chain.body_at(height)]
+        position = self.position(height)
         return np.hstack([twist[:, :3] + np.cross(twist[:, 3:], position), twist[:, 3:]])
+
+    def position(self, height: Array) -> Array:
+        """(m, 3) places in m of points of the axis at undeformed heights (m,) in m."""
+        chain, data = self._chain.system.chain, self._chain.data
+        body = chain.body_at(height)
+        arm = (height - chain.origin[body])[:, None] * data.rotation[body, :, 2]
+        return np.asarray(data.position[body] + arm)
+
+    def inertia_wrenches(self, vector: Array) -> tuple[Array, Array]:
+        """(N + 1, 6) of the bodies and their water, (6,) of the rotor-nacelle assembly.
+
+        They are the forces and moments about the world's origin that an acceleration by a vector
+        needs.
+        """
+        chain, data = self._chain.system.chain, self._chain.data
+        heavy, still = self._assembled(0.0, _LARGE), self._assembled(0.0, 0.0)
+        inertia = (heavy.articulated - still.articulated) / _LARGE
+        twist = self._twists(vector)
+        bodies = np.einsum("kij,kj->ki", inertia, twist)
+        orientation, top = data.rotation[-1], twist[-1]
+        arm = np.array(chain.rna.center_of_mass) + [0.0, 0.0, chain.top - chain.origin[-1]]
+        center = data.position[-1] + orientation @ arm
+        force = chain.rna.mass * (top[:3] + np.cross(top[3:], center))
+        about_center = orientation @ chain.rna.inertia @ orientation.T @ top[3:]
+        rna = np.concatenate([force, np.cross(center, force) + about_center])
+        bodies[-1] -= rna
+        return bodies, rna
+
+    def dissipation(self, vectors: Array) -> Array:
+        """(L + 1, n) power that each load and, last, the root dissipates at velocities (nv, n)."""
+        chain, model = self._chain, self._chain.model
+        blocks = self._assembled(0.0, 0.0).blocks
+        powers = np.zeros((len(chain.loads) + 1, vectors.shape[1]))
+        for i, vector in enumerate(vectors.T):
+            at_points = self.axis_shape(vector, model.point_height)
+            for n, load in enumerate(chain.loads):
+                part = slice(model.first_point[n], model.first_point[n + 1])
+                powers[n, i] = dissipated_power(load, blocks[part], at_points[part])
+        root = vectors[: model.roots]
+        powers[-1] = np.sum(root * (chain.data.root_damping[: model.roots, : model.roots] @ root), 0)
+        return powers
+
+    def _twists(self, vector: Array) -> Array:
+        """(N + 1, 6) spatial velocities of the bodies at the world's origin."""
+        chain = self._chain.system.chain
+        moved = self._chain.data.joint[: chain.axis_joints] * vector[: chain.axis_joints, None]
+        twists = np.vstack([np.zeros(6), np.cumsum(moved, axis=0)])
+        return np.asarray(twists[chain.roots :: len(chain.node_joints)])
+
+    @cached_property
+    def _coupling(self) -> tuple[Array, Array]:
+        """(k, nv) coupled dampers as generalised forces, and (k,) their rates."""
+        chain, model, joint = self._chain.system.chain, self._chain.model, self._chain.data.joint
+        rows, rates = [np.zeros((0, len(joint)))], [np.zeros(0)]
+        for load, first in zip(self._chain.loads, model.first_point[:-1], strict=True):
+            if load.coupling is None:
+                continue
+            wrench, rate = load.coupling
+            points = slice(first, first + len(load.height))
+            body = model.point_body[points]
+            position = self._chain.data.motion[points, POSITION]
+            on_body = np.zeros((len(rate), chain.elements + 2, 6))
+            moment = wrench[..., 3:] + np.cross(position, wrench[..., :3])
+            np.add.at(on_body, (slice(None), body), np.concatenate([wrench[..., :3], moment], 2))
+            above = on_body[:, ::-1].cumsum(axis=1)[:, ::-1]
+            rows.append(np.einsum("kdj,dj->kd", above[:, dof_body(chain)], joint))
+            rates.append(rate)
+        return np.concatenate(rows), np.concatenate(rates)
 
     def solve(self, rhs: Array, shift: float = 0.0) -> Array:
         """(nv,) solution of (K - shift M) x = b."""
@@ -84,15 +153,18 @@ class CompiledPencil:
         self._shift = shift
 
     def _times(self, vectors: Array, dv_dq: float, da_dq: float, *, transposed: int = 0) -> Array:
+        chain, factors = self._chain, self._assembled(dv_dq, da_dq)
+        rows = np.ascontiguousarray(np.atleast_2d(vectors.T), dtype=float)
+        products = np.empty_like(rows)
+        multiply(chain.model, chain.data, factors, dv_dq, da_dq, transposed, rows, products)
+        return products.T.reshape(vectors.shape)
+
+    def _assembled(self, dv_dq: float, da_dq: float) -> Factorisation:
+        """The bodies' matrices, made once for each pair of factors."""
         chain, key = self._chain, (dv_dq, da_dq)
         if key not in self._factors:
             self._factors[key] = Factorisation.of(chain.model)
             arguments = (chain.model, chain.data, chain.state, self._factors[key])
             with chain.running():
                 assemble(*arguments, self._time_inputs, dv_dq, da_dq)
-        rows = np.ascontiguousarray(np.atleast_2d(vectors.T), dtype=float)
-        products = np.empty_like(rows)
-        multiply(
-            chain.model, chain.data, self._factors[key], dv_dq, da_dq, transposed, rows, products
-        )
-        return products.T.reshape(vectors.shape)
+        return self._factors[key]

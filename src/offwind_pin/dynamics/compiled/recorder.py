@@ -198,17 +198,21 @@ def make_segments(
 
 
 def make_soil_nodes(loads: Sequence[PointLoad]) -> SoilNodes:
-    """Nodes of the soil, which is what moves with the ground, among all the loads of a system."""
+    """Nodes of the soil among all the loads of a system."""
     first = _beginnings([np.arange(len(load.height)) for load in loads])
     points = [
         np.arange(begin, begin + len(load.height))
         for begin, load in zip(first[:-1], loads, strict=True)
-        if load.moves_with_ground
+        if _is_soil(load)
     ]
-    heights = [load.height for load in loads if load.moves_with_ground]
+    heights = [load.height for load in loads if _is_soil(load)]
     height, node = np.unique(np.concatenate([np.zeros(0), *heights]), return_inverse=True)
     none = np.zeros(0, dtype=np.intp)
     return SoilNodes(height, np.concatenate([none, *points]), node.astype(np.intp))
+
+
+def _is_soil(load: PointLoad) -> bool:
+    return load.moves_with_ground and load.records_soil_force
 
 
 def _is_above(system: System, model: Model, height: float) -> NDArray[np.bool_]:

@@ -1,0 +1,73 @@
+"""Mass-proportional damping of the bodies of a structure."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import ClassVar
+
+import numpy as np
+
+from offwind_pin.base.definition import Array
+from offwind_pin.base.descriptions import one_line
+from offwind_pin.loads.point_load import (
+    BY_VELOCITY,
+    MOMENT_BY_SPIN,
+    SPIN,
+    VELOCITY,
+    KernelLoad,
+    force_kernel,
+    tangent_kernel,
+)
+
+
+@force_kernel
+def _forces(
+    motion: Array, constants: Array, time_inputs: Array, memory: Array, force: Array
+) -> float:
+    power = 0.0
+    for p in range(len(motion)):
+        velocity, spin = motion[p, VELOCITY], motion[p, SPIN]
+        for j in range(3):
+            force[p, j] = -constants[p, j] * velocity[j]
+            force[p, 3 + j] = -constants[p, 3 + j] * spin[j]
+            power += constants[p, j] * velocity[j] ** 2 + constants[p, 3 + j] * spin[j] ** 2
+    return power
+
+
+@tangent_kernel
+def _tangents(
+    motion: Array, constants: Array, time_inputs: Array, memory: Array, blocks: Array
+) -> None:
+    for p in range(len(motion)):
+        for j in range(3):
+            blocks[p, BY_VELOCITY, j, j] = -constants[p, j]
+            blocks[p, MOMENT_BY_SPIN, j, j] = -constants[p, 3 + j]
+
+
+@dataclass(frozen=True, eq=False)
+class MassDamping(KernelLoad):
+    """Dampers between points and the inertial frame, along and about its axes.
+
+    Attributes
+    ----------
+    name : of the load
+    height : (n,) undeformed heights of the points in m
+    dampers : (n, 6) along x, y, z in N s/m and about them in N m s
+    """
+
+    name: str
+    height: Array
+    dampers: Array
+
+    moves_with_ground: ClassVar[bool] = True
+    records_soil_force: ClassVar[bool] = False
+
+    force_kernel = _forces
+    tangent_kernel = _tangents
+
+    __repr__ = one_line
+
+    @cached_property
+    def constants(self) -> Array:
+        return np.ascontiguousarray(self.dampers)
