@@ -4,7 +4,7 @@ from offwind_pin.analysis.foundation.condensation import Condensation, condense
 from offwind_pin.analysis.foundation.equivalent_damping import equivalent_damping
 from offwind_pin.analysis.foundation.pile_only import pile_only
 from offwind_pin.analysis.foundation.pushover import Pushover, pushover
-from offwind_pin.analysis.foundation.registry import register_foundation
+from offwind_pin.analysis.foundation.registry import FoundationKind, register_foundation
 from offwind_pin.analysis.foundation.study.study import SoilOverview, soil_overview
 from offwind_pin.analysis.updating.identify_soil import Parameter, SoilIdentification, identify_soil
 from offwind_pin.analysis.updating.targets import DeflectionTarget, FrequencyTarget, ShapeTarget
@@ -20,6 +20,7 @@ __all__ = [
     "Condensation",
     "DeflectionTarget",
     "Foundation",
+    "FoundationKind",
     "FrequencyTarget",
     "Parameter",
     "PileNodes",

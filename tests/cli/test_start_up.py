@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -11,7 +12,6 @@ import pytest
 
 import offwind_pin as ow
 from offwind_pin.analysis.foundation.registry import FOUNDATIONS
-from offwind_pin.cli.foundation_names import FOUNDATION_NAMES
 
 HEAVY = {
     "jinja2",
@@ -77,8 +77,11 @@ def test_show_draws_nothing() -> None:
 
 
 def test_help_names_every_foundation() -> None:
-    """The names in help texts, which cannot import the foundations, are those that can be built."""
-    assert set(FOUNDATION_NAMES) == FOUNDATIONS.keys()
+    done = subprocess.run(
+        [sys.executable, "-m", "offwind_pin", "modes", "--help"], capture_output=True, text=True
+    )
+    words = re.findall(r"\w+", done.stdout)
+    assert set(words) >= FOUNDATIONS.keys()
 
 
 def test_command_and_package_state_one_version(offwind: object) -> None:

@@ -5,10 +5,15 @@ from __future__ import annotations
 import runpy
 from pathlib import Path
 from typing import Any
+from unittest.mock import patch
 
 import numpy as np
 import pytest
 from helpers.doc_pages import ROOT, blocks
+
+import offwind_pin as ow
+from offwind_pin.analysis.foundation.registry import FOUNDATIONS
+from offwind_pin.display.wording import supported_on
 
 PAGE = ROOT / "docs" / "extending.md"
 EXAMPLES = [block.text for block in blocks(PAGE) if block.language == "python"]
@@ -35,8 +40,15 @@ def test_load(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
 
 def test_foundation(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Sway and rocking are the loads at the mudline over the springs' stiffness."""
-    run("Springs", tmp_path)
+    with patch.dict(FOUNDATIONS):
+        run("Springs", tmp_path)
+        case = {"name": "own", "turbine": "oc6_phase2", "foundation": "gravity_base"}
+        case |= {"sea": {"kind": "dry"}, "analysis": {"kind": "static"}}
+        assert ow.Case.model_validate(case).build().foundation.root is not None
+        assert supported_on("gravity_base") == "on a gravity base"
     assert printed(capsys) == pytest.approx([1e5, 1.0], rel=1e-6)
+    with pytest.raises(ValueError, match="gravity_base"):  # negative control
+        ow.Case.model_validate(case)
 
 
 def test_soil_law(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -35,7 +35,11 @@ def files(*names: str) -> list[str]:
     [
         ("load: its class, who makes it, its schema", ("TowerDrag", "tower_drag", "TowerWind"), 4),
         ("wave model: its class and its schema", ("StreamWaves",), 2),
-        ("foundation", ("apparent_fixity",), 7),
+        (
+            "foundation: its function, its kind, its parameters, the soil report that compares it",
+            ("apparent_fixity",),
+            4,
+        ),
         (
             "soil family: curves, schema, one line in layered.py",
             ("MatlockClay", "MatlockClayFamily"),

@@ -29,9 +29,8 @@ def build(
 
     Parameters
     ----------
-    foundation : ``"clamped"``, ``"apparent_fixity"``, ``"coupled_springs"``,
-        ``"distributed_springs"`` or ``"macro_element"``, a name given to ``register_foundation``,
-        or a :class:`Foundation`
+    foundation : a name, ``"clamped"`` for example, of the kinds in
+        :mod:`offwind_pin.analysis.foundation.registry`, or a :class:`Foundation`
     sea : :class:`StillWater`, :class:`IrregularWaves`, or None for a dry structure
     elements : number of multibody beam elements in all, by region, or None for the default, which
         puts the first five frequencies within 0.1 % of the converged ones

@@ -198,10 +198,11 @@ class Case(Definition):
         InputError : a part of the turbine or of the sea that cannot be used
         """
         name = self.foundation if foundation is None else foundation
+        made = FOUNDATIONS[name].make(self.turbine)
         elements = self.elements
-        if isinstance(elements, dict) and name != "distributed_springs":  # no pile to divide
+        if isinstance(elements, dict) and not made.soil:  # no pile to divide
             elements = {region: count for region, count in elements.items() if region != "pile"}
-        return build(self.turbine, name, self.water, elements=elements, element=self.element)
+        return build(self.turbine, made, self.water, elements=elements, element=self.element)
 
 
 def load_case(name_or_path: str | Path) -> Case:

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from offwind_pin.analysis.foundation.registry import FOUNDATIONS
 from offwind_pin.cases.shipped import shipped_cases
 from offwind_pin.cli.exit_codes import EXIT_SYSTEM
-from offwind_pin.cli.foundation_names import FOUNDATION_NAMES
 from offwind_pin.definitions.element import Element
 from offwind_pin.definitions.engine import Engine
 from offwind_pin.definitions.shipped import shipped_turbines
@@ -44,7 +44,7 @@ def _complete_case(incomplete: str) -> list[str]:
 
 
 def _complete_foundation(incomplete: str) -> list[str]:
-    return _starting(list(FOUNDATION_NAMES), incomplete)
+    return _starting(list(FOUNDATIONS), incomplete)
 
 
 def _print_version(asked: bool) -> None:  # noqa: FBT001 (the value of the option)
@@ -76,9 +76,7 @@ TurbineArgument = Annotated[
 ]
 FoundationOption = Annotated[
     str,
-    typer.Option(
-        help=f"One of {', '.join(FOUNDATION_NAMES)}.", autocompletion=_complete_foundation
-    ),
+    typer.Option(help=f"One of {', '.join(FOUNDATIONS)}.", autocompletion=_complete_foundation),
 ]
 ElementsOption = Annotated[int | None, typer.Option(help="Multibody beam elements in all.")]
 ElementOption = Annotated[

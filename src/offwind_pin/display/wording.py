@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+from offwind_pin.analysis.foundation.registry import FOUNDATIONS
+
 _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 MINUS, DASH, TIMES = "\u2212", "\u2013", "\u00d7"
 _THIN_SPACE = "\u202f"
@@ -11,23 +13,20 @@ _NO_BREAK = "\u00a0"
 _ROUNDING = 5e-4
 
 
-_FOUNDATIONS = {
-    "clamped": "clamped at the mudline",
-    "apparent_fixity": "apparent fixity below the mudline",
-    "coupled_springs": "coupled springs at the mudline",
-    "distributed_springs": "distributed springs",
-    "macro_element": "macro-element at the mudline",
-}
-
-
 def foundation_name(name: str) -> str:
-    """A foundation in plain words; somebody else's by its own name."""
-    return _FOUNDATIONS.get(name, name)
+    """A foundation in plain words; one that is not registered by its own name."""
+    return FOUNDATIONS[name].description if name in FOUNDATIONS else name
 
 
-def base_name(foundation: str) -> str:
-    """What the lower end of a chain is that reaches below the mudline."""
-    return "apparent fixity" if foundation == "apparent_fixity" else "pile toe"
+def supported_on(name: str) -> str:
+    """A foundation with its preposition."""
+    preposition = FOUNDATIONS[name].preposition if name in FOUNDATIONS else "on"
+    return f"{preposition} {foundation_name(name)}".strip()
+
+
+def base_name(name: str) -> str:
+    """What the lower end of a structure is that reaches below the mudline."""
+    return FOUNDATIONS[name].lower_end if name in FOUNDATIONS else "lower end"
 
 
 def water_level_name(level: float) -> str:

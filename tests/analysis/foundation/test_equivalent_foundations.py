@@ -85,7 +85,7 @@ def test_apparent_fixity_takes_the_springs_too(undamped: Turbine) -> None:
     lengths = []
     for source in ("coupled_springs", "distributed_springs"):
         chosen = with_soil(undamped, apparent_fixity=ApparentFixity(stiffness_from=source))
-        foundation = FOUNDATIONS["apparent_fixity"](chosen)
+        foundation = FOUNDATIONS["apparent_fixity"].make(chosen)
         lengths.append(undamped.site.mudline - foundation.base)
         assert (foundation.surrogate is not None) == (source == "distributed_springs")
     assert 10 < lengths[0] < lengths[1] < 25
@@ -93,7 +93,7 @@ def test_apparent_fixity_takes_the_springs_too(undamped: Turbine) -> None:
 
 def test_macro_element_has_the_condensed_stiffness(undamped: Turbine) -> None:
     """Small motions see the springs' own 6x6, to 1e-6."""
-    root = FOUNDATIONS["macro_element"](undamped).root
+    root = FOUNDATIONS["macro_element"].make(undamped).root
     assert root is not None
     found, _ = root.tangents(np.zeros(6), np.zeros(6))
     expected = condensed_stiffness(undamped)
@@ -113,7 +113,7 @@ def test_macro_element_from_a_table(undamped: Turbine, tmp_path: Path) -> None:
     (tmp_path / "path.csv").write_text("\n".join(rows) + "\n")
     calibration = MacroElementCalibration(load_arm=arm, file=tmp_path / "path.csv")
     turbine = with_soil(undamped, macro_element=calibration, distributed_springs=None)
-    root = FOUNDATIONS["macro_element"](turbine).root
+    root = FOUNDATIONS["macro_element"].make(turbine).root
     assert root is not None
     u, turn = np.linalg.solve(block, [1e7, arm * 1e7]) / (1 - 1e7 / 6e7)
     reaction = root.reaction(np.array([u, 0, 0, 0, turn, 0]), np.zeros(6))

@@ -39,10 +39,14 @@ def hardening(oc6: ow.Turbine, monkeypatch: pytest.MonkeyPatch) -> ow.Turbine:
     stiffness = np.array(oc6.soil.coupled_springs.stiffness)
     restraint = HardeningRestraint(stiffness, np.full(6, 1e17))
 
-    def make(turbine: ow.Turbine) -> Foundation:
-        return Foundation("hardening", turbine.site.mudline, restraint)
+    class Hardening(ow.soil.FoundationKind):
+        name = "hardening"
+        description = "hardening springs"
 
-    monkeypatch.setitem(FOUNDATIONS, "hardening", make)
+        def make(self, turbine: ow.Turbine) -> Foundation:
+            return Foundation("hardening", turbine.site.mudline, restraint)
+
+    monkeypatch.setitem(FOUNDATIONS, "hardening", Hardening())
     return oc6
 
 
@@ -94,10 +98,9 @@ def test_another_foundation_fits_the_interface(hardening: ow.Turbine) -> None:
     assert float(history["solver_residual"].max()) <= 1e-8
 
 
-def test_a_lower_base_fits_the_interface(oc6: ow.Turbine, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_lower_base_fits_the_interface(oc6: ow.Turbine) -> None:
     """A chain held rigidly below the mudline, as apparent fixity is, is softer than a clamped one."""
-    monkeypatch.setitem(FOUNDATIONS, "deeper", lambda turbine: Foundation("deeper", -45.0))
-    deeper = ow.modes(ow.build(oc6, "deeper"))
+    deeper = ow.modes(ow.build(oc6, Foundation("deeper", -45.0)))
     clamped = ow.modes(ow.build(oc6, "clamped"))
     assert deeper.frequency_hz[0] < 0.95 * clamped.frequency_hz[0]
 

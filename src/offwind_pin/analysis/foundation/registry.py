@@ -1,65 +1,159 @@
-"""Foundations by name."""
+"""Kinds of foundation by name, with their wording.
+
+Help texts and completion read the names here, so each kind imports its builder when it is used.
+"""
 
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable
-from dataclasses import dataclass
+from abc import ABC, abstractmethod
+from typing import TYPE_CHECKING, ClassVar
 
-from offwind_pin.analysis.foundation.equivalent import apparent_fixity, macro_element
 from offwind_pin.base.errors import InputError
-from offwind_pin.definitions.turbine import Turbine
-from offwind_pin.loads.soil.foundation import (
-    Foundation,
-    clamped,
-    coupled_springs,
-    distributed_springs,
-)
+
+if TYPE_CHECKING:
+    from offwind_pin.definitions.turbine import Turbine
+    from offwind_pin.loads.soil.foundation import Foundation
 
 _log = logging.getLogger(__name__)
 
 
-@dataclass(frozen=True)
-class FoundationKind:
-    """A kind of foundation that has a name.
+class FoundationKind(ABC):
+    """A kind of foundation with a name: base class of the package's and of a user's own.
 
     Attributes
     ----------
-    make : the foundation of a turbine
-    is_described : whether a turbine's soil has the numbers for it
+    name : str, in case files and commands
+    description : str, in tables, figures and reports
+    preposition : str, between a structure and the description in a sentence
+    lower_end : str, what the lower end of a structure is that reaches below the mudline
     """
 
-    make: Callable[[Turbine], Foundation]
-    is_described: Callable[[Turbine], bool]
+    name: ClassVar[str]
+    description: ClassVar[str]
+    preposition: ClassVar[str] = "on"
+    lower_end: ClassVar[str] = "pile toe"
 
-    def __call__(self, turbine: Turbine) -> Foundation:
-        return self.make(turbine)
+    @abstractmethod
+    def make(self, turbine: Turbine) -> Foundation:
+        """The foundation of a turbine.
+
+        Parameters
+        ----------
+        turbine : Turbine
+
+        Returns
+        -------
+        Foundation
+
+        Raises
+        ------
+        InputError : the turbine lacks what the foundation needs
+        """
+
+    def is_described(self, turbine: Turbine) -> bool:
+        """Whether a turbine file contains the numbers for it; `offwind show` lists those."""
+        return True
+
+
+class Clamped(FoundationKind):
+    """Fixed rigidly at the mudline."""
+
+    name = "clamped"
+    description = "clamped at the mudline"
+    preposition = ""
+
+    def make(self, turbine: Turbine) -> Foundation:
+        from offwind_pin.loads.soil.foundation import clamped
+
+        return clamped(turbine)
+
+
+class ApparentFixity(FoundationKind):
+    """A cantilever below the mudline, as stiff there as pile and soil."""
+
+    name = "apparent_fixity"
+    description = "apparent fixity below the mudline"
+    preposition = "with"
+    lower_end = "apparent fixity"
+
+    def make(self, turbine: Turbine) -> Foundation:
+        from offwind_pin.analysis.foundation.equivalent import apparent_fixity
+
+        return apparent_fixity(turbine)
+
+    def is_described(self, turbine: Turbine) -> bool:
+        soil = turbine.soil
+        return soil.distributed_springs is not None or soil.coupled_springs is not None
+
+
+class CoupledSprings(FoundationKind):
+    """A 6x6 stiffness at the mudline."""
+
+    name = "coupled_springs"
+    description = "coupled springs at the mudline"
+
+    def make(self, turbine: Turbine) -> Foundation:
+        from offwind_pin.loads.soil.foundation import coupled_springs
+
+        return coupled_springs(turbine)
+
+    def is_described(self, turbine: Turbine) -> bool:
+        return turbine.soil.coupled_springs is not None
+
+
+class DistributedSprings(FoundationKind):
+    """The pile to its toe, with the springs of the soil along it."""
+
+    name = "distributed_springs"
+    description = "distributed springs"
+
+    def make(self, turbine: Turbine) -> Foundation:
+        from offwind_pin.loads.soil.foundation import distributed_springs
+
+        return distributed_springs(turbine)
+
+    def is_described(self, turbine: Turbine) -> bool:
+        return turbine.soil.distributed_springs is not None
+
+
+class MacroElement(FoundationKind):
+    """Kinematic hardening at the mudline, calibrated by a monotonic loading."""
+
+    name = "macro_element"
+    description = "macro-element at the mudline"
+    preposition = "on a"
+
+    def make(self, turbine: Turbine) -> Foundation:
+        from offwind_pin.analysis.foundation.equivalent import macro_element
+
+        return macro_element(turbine)
+
+    def is_described(self, turbine: Turbine) -> bool:
+        soil = turbine.soil
+        return soil.distributed_springs is not None or soil.macro_element is not None
 
 
 FOUNDATIONS: dict[str, FoundationKind] = {}
 
 
-def register_foundation(
-    name: str,
-    make: Callable[[Turbine], Foundation],
-    is_described: Callable[[Turbine], bool] | None = None,
-) -> None:
-    """Give a kind of foundation a name, for :func:`build`, case files and the commands.
+def register_foundation(kind: FoundationKind) -> None:
+    """Make a kind of foundation known by its name to :func:`build`, case files and commands.
 
     Parameters
     ----------
-    make : the foundation of a turbine; raises :class:`InputError` where the turbine lacks something
-    is_described : whether a turbine's soil has the numbers for it; always unless given
+    kind : FoundationKind
 
     Raises
     ------
-    InputError : another kind has the name
+    InputError : a kind of another class has the name
     """
-    if name in FOUNDATIONS and FOUNDATIONS[name].make is not make:
+    known = FOUNDATIONS.get(kind.name)
+    if known is not None and type(known) is not type(kind):
         raise InputError(
-            "foundation", name, f"a name other than {', '.join(FOUNDATIONS)}", "Choose another."
+            "foundation", kind.name, f"a name other than {', '.join(FOUNDATIONS)}", "Rename it."
         )
-    FOUNDATIONS[name] = FoundationKind(make, is_described or _always)
+    FOUNDATIONS[kind.name] = kind
 
 
 def make_foundation(turbine: Turbine, kind: str | Foundation) -> Foundation:
@@ -69,10 +163,12 @@ def make_foundation(turbine: Turbine, kind: str | Foundation) -> Foundation:
     ------
     InputError : no foundation of that name, or the turbine lacks what it needs
     """
+    from offwind_pin.loads.soil.foundation import Foundation
+
     if isinstance(kind, Foundation):
         foundation = kind
     elif kind in FOUNDATIONS:
-        foundation = FOUNDATIONS[kind](turbine)
+        foundation = FOUNDATIONS[kind].make(turbine)
     else:
         raise InputError("foundation", kind, ", ".join(FOUNDATIONS), "Choose one of them.")
     for caution in foundation.cautions:
@@ -85,28 +181,5 @@ def described_foundations(turbine: Turbine) -> list[str]:
     return [name for name, kind in FOUNDATIONS.items() if kind.is_described(turbine)]
 
 
-def _always(turbine: Turbine) -> bool:
-    return True
-
-
-def _has_springs(turbine: Turbine) -> bool:
-    return turbine.soil.distributed_springs is not None
-
-
-def _has_stiffness(turbine: Turbine) -> bool:
-    return turbine.soil.coupled_springs is not None
-
-
-register_foundation("clamped", clamped)
-register_foundation(
-    "apparent_fixity",
-    apparent_fixity,
-    lambda turbine: _has_springs(turbine) or _has_stiffness(turbine),
-)
-register_foundation("coupled_springs", coupled_springs, _has_stiffness)
-register_foundation("distributed_springs", distributed_springs, _has_springs)
-register_foundation(
-    "macro_element",
-    macro_element,
-    lambda turbine: _has_springs(turbine) or turbine.soil.macro_element is not None,
-)
+for _kind in (Clamped, ApparentFixity, CoupledSprings, DistributedSprings, MacroElement):
+    register_foundation(_kind())

@@ -24,7 +24,7 @@ from offwind_pin.display.figures.style import (
     styled,
 )
 from offwind_pin.display.rotor_nacelle import rotor_nacelle
-from offwind_pin.display.wording import TIMES, base_name, fixed
+from offwind_pin.display.wording import base_name, fixed, foundation_name
 
 _SIDES = (-44.0, 60.0)
 """m shown on the windward side, and on the lee side where the labels stand."""
@@ -200,10 +200,8 @@ def _foundation(axes: Axes, data: xr.Dataset, springs: Array | None, reach: floa
         _toe_spring(axes, base)
     elif data.attrs["root"] == "fixed":
         _clamp(axes, base, radius)
-    elif data.attrs["foundation"] == "macro_element":
-        _mudline_springs(axes, mudline, radius, "macro-element at the mudline")
     else:
-        _mudline_springs(axes, mudline, radius, f"6{TIMES}6 stiffness at the mudline")
+        _mudline_springs(axes, mudline, radius, foundation_name(data.attrs["foundation"]))
 
 
 def _springs(axes: Axes, height: Array, radius: float, reach: float) -> None:

@@ -16,6 +16,7 @@ from offwind_pin.display.wording import (
     orders_of_magnitude,
     relative_difference,
     sentence,
+    supported_on,
 )
 
 if TYPE_CHECKING:
@@ -107,12 +108,6 @@ def _history_sentences(report: CaseReport) -> list[str]:
     ]
 
 
-def _supported(foundation: str) -> str:
-    """A foundation with its preposition."""
-    before = {"clamped": "", "apparent_fixity": "with ", "macro_element": "on a "}
-    return before.get(foundation, "on ") + foundation_name(foundation)
-
-
 def static_increases(report: CaseReport) -> list[str]:
     """Tower-top displacement on each foundation compared with the first in order."""
     if len(report.statics) < 2:
@@ -128,8 +123,8 @@ def static_increases(report: CaseReport) -> list[str]:
         word = "larger" if change >= 0 else "smaller"
         said.append(
             f"the static tower-top displacement is {abs(change):.1f} % {word} "
-            f"{_supported(other)} than {_supported(name)}: {fixed(now, 3)} m along x compared with "
-            f"{fixed(before, 3)} m"
+            f"{supported_on(other)} than {supported_on(name)}: {fixed(now, 3)} m along x compared "
+            f"with {fixed(before, 3)} m"
         )
     return said
 

@@ -27,7 +27,7 @@ from offwind_pin.display.viewer.scene import (
     view_extent,
 )
 from offwind_pin.display.viewer.springs import node_step
-from offwind_pin.display.wording import water_level_name
+from offwind_pin.display.wording import foundation_name, water_level_name
 from offwind_pin.dynamics.system import System
 
 _FIELD_OF_VIEW_DEG = 24.0
@@ -79,10 +79,7 @@ def _springs_in_words(system: System) -> str:
     """What the spring symbols stand for; empty where there are none."""
     soil = soil_springs(system)
     if soil is None:
-        at_mudline = (
-            "macro-element" if system.foundation.name == "macro_element" else "coupled springs"
-        )
-        return "" if system.foundation.root is None else at_mudline
+        return "" if system.foundation.root is None else foundation_name(system.foundation.name)
     step = node_step(soil, system.chain.top - system.chain.base)
     return "soil springs" if step == 1 else f"soil springs (one in {step} drawn)"
 
