@@ -56,8 +56,7 @@ def build(
     if turbine.structural_damping is None:
         return system
 
-    def reference(kind: str | None, still_water: bool | None) -> System:
-        wet = sea is not None if still_water is None else still_water
+    def reference(kind: str | None, *, wet: bool) -> System:
         level = 0.0 if sea is None else sea.water_level
         locked = turbine.with_dampers_locked()
         if kind is not None:

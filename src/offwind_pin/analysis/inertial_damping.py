@@ -13,7 +13,9 @@ from offwind_pin.loads.structural.mass_damping import MassDamping
 from offwind_pin.structure.chain import Chain
 
 
-def modal_load(result: ModalResult, linear: CompiledPencil, chain: Chain, gain: Array) -> CoupledDamping:
+def modal_load(
+    result: ModalResult, linear: CompiledPencil, chain: Chain, gain: Array
+) -> CoupledDamping:
     """The load whose generalised force is -M Phi G Phi' M v.
 
     The inertia forces of the mode shapes, body by body, take the place of joint moments: so the

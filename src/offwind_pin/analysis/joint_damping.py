@@ -19,7 +19,7 @@ PLANES = ("SS", "FA", "T")
 _NO_SHARE = 1e-6
 """Share of a mode's stiffness below which a factor is rounding for it."""
 _EVENNESS = 1e-4
-"""Weight of equal factors in all regions beside the ratios asked for, where these leave a choice."""
+"""Weight of equal factors in all regions, where the ratios asked for leave a choice."""
 
 
 @dataclass(frozen=True)
@@ -74,7 +74,9 @@ def calibrate(system: System, result: ModalResult, ratios: Mapping[str, float]) 
     omega = 2 * np.pi * result.frequency_hz[index]
     seen = (2 * matrix / omega[:, None]).max(axis=0) > _NO_SHARE
     if not np.all(matrix[:, seen].any(axis=1)):
-        missed = [label for label, row in zip(ratios, matrix[:, seen], strict=True) if not row.any()]
+        missed = [
+            label for label, row in zip(ratios, matrix[:, seen], strict=True) if not row.any()
+        ]
         raise InputError(
             "structural_damping.ratios_of_critical",
             ", ".join(missed),

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Collection, Mapping
+from typing import Protocol
 
 import numpy as np
 
-from offwind_pin.analysis.engines import pencil
-from offwind_pin.analysis.inertial_damping import mass_loads, modal_load, mass_ratios
+from offwind_pin.analysis.inertial_damping import mass_loads, mass_ratios, modal_load
 from offwind_pin.analysis.joint_damping import calibrate, joint_ratios
 from offwind_pin.analysis.modal import ModalResult, modes
 from offwind_pin.analysis.static import static
@@ -20,14 +20,19 @@ from offwind_pin.definitions.structural_damping import (
     StiffnessDamping,
     StructuralDamping,
 )
+from offwind_pin.dynamics.compiled.chain import CompiledChain
 from offwind_pin.dynamics.compiled.pencil import CompiledPencil
 from offwind_pin.dynamics.system import System
 
 _log = logging.getLogger(__name__)
 
-Reference = Callable[[str | None, bool | None], System]
-"""From foundation and water to the system that ratios refer to, undamped and with tuned mass dampers
-locked. By default it is the run's own, with the run's elements; else it has the default ones."""
+
+class Reference(Protocol):
+    """Makes undamped systems for ratios to refer to, their tuned mass dampers locked."""
+
+    def __call__(self, kind: str | None, *, wet: bool) -> System:
+        """On a kind of foundation; by default on the run's own, with the run's elements."""
+
 
 _SEARCHED_MODES = 12
 _MOST_MODES = 64
@@ -61,7 +66,7 @@ def damped(system: System, asked: StructuralDamping, reference: Reference) -> Sy
 
 def _by_joints(system: System, asked: StiffnessDamping, reference: Reference) -> System:
     """The factors of joint damping are calibrated on one system, and used on another."""
-    calibrated = reference(asked.foundation, asked.still_water)
+    calibrated = _referred_to(system, asked, reference)
     found = modes(calibrated, min(_SEARCHED_MODES, calibrated.nv))
     _check_named(found, asked.ratios)
     damping = calibrate(calibrated, found, asked.ratios)
@@ -79,7 +84,7 @@ def _by_modes(system: System, asked: ModalDamping, reference: Reference) -> Syst
     C0 is proportional to the structural stiffness, by the factor that gives the other modes' ratio
     at the cutoff.
     """
-    own = reference(None, None)
+    own = reference(None, wet=system.sea is not None)
     found, linear = _modes_up_to(own, asked.cutoff, asked.ratios)
     named = _ratios_on(own, found, asked, reference)
     wanted = np.array([named.get(label, asked.others) for label in found.label])
@@ -93,7 +98,7 @@ def _by_modes(system: System, asked: ModalDamping, reference: Reference) -> Syst
 
 def _by_rayleigh(system: System, asked: RayleighDamping, reference: Reference) -> System:
     """Damping alpha M + beta K of the structure itself, without soil and water."""
-    own = reference(None, None)
+    own = _referred_to(system, asked, reference)
     found, linear = _modes_up_to(own, _UNASKED_UP_TO, asked.ratios or {})
     by_mass = mass_ratios(found, linear, own.chain)
     by_stiffness = joint_ratios(own, found, own.chain.joint_stiffness.ravel())
@@ -107,6 +112,10 @@ def _by_rayleigh(system: System, asked: RayleighDamping, reference: Reference) -
         loads,
         _cautions(found, ratios, named, own),
     )
+
+
+def _referred_to(system: System, asked: StructuralDamping, reference: Reference) -> System:
+    return reference(asked.foundation, wet=asked.wet(in_water=system.sea is not None))
 
 
 def _factors(
@@ -154,7 +163,7 @@ def _ratios_on(
     A mode keeps the loss factor of its structure: its ratio is as large as its structure's share of
     its potential energy.
     """
-    other = reference(asked.foundation, asked.still_water)
+    other = _referred_to(own, asked, reference)
     same = other.foundation.name == own.foundation.name and (other.sea is None) == (own.sea is None)
     if same:
         return dict(asked.ratios)
@@ -197,14 +206,14 @@ def _modes_up_to(
             f"less than {found.frequency_hz[-1]:.4g} Hz, below which there are {count} modes",
             "Lower it.",
         )
-    linear = pencil(system, state, "compiled")
-    assert isinstance(linear, CompiledPencil)
+    chain = CompiledChain(system)
+    chain.memory = state.memory
     kept = [
         i
         for i, label in enumerate(found.label)
         if found.frequency_hz[i] <= frequency or label in named
     ]
-    return found.subset(kept), linear
+    return found.subset(kept), CompiledPencil(chain, state.q)
 
 
 def _in_joints(system: System, of_nodes: Array) -> Array:

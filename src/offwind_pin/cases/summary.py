@@ -34,10 +34,16 @@ def _or_none(value: float) -> float | None:
 
 
 def summarise_damping(system: System) -> dict[str, Any]:
-    """Structural damping as requested, and as achieved on the system it was calibrated on."""
-    calibration = system.turbine.structural_damping
-    asked = {} if calibration is None else dict(calibration.ratios)
-    return {"asked": asked, "achieved": system.damping_ratios}
+    """Structural damping as requested, and as achieved on the system that the ratios refer to."""
+    asked = system.turbine.structural_damping
+    if asked is None:
+        return {"kind": None, "asked": {}, "achieved": {}, "cautions": []}
+    return {
+        "kind": asked.kind,
+        "asked": dict(asked.ratios or {}),
+        "achieved": system.damping_ratios,
+        "cautions": list(system.damping_cautions),
+    }
 
 
 def summarise_static(state: StaticResult) -> dict[str, Any]:

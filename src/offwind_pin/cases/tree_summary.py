@@ -151,17 +151,22 @@ def _frequencies(modes: ModalResult) -> dict[str, float]:
     }
 
 
-def _damping(data: xr.Dataset | None) -> dict[str, dict[str, float]]:
+def _damping(data: xr.Dataset | None) -> dict[str, Any]:
     """As :func:`summarise_damping`, of results."""
     if data is None:
-        return {"asked": {}, "achieved": {}}
-    return {
+        return {"kind": None, "asked": {}, "achieved": {}, "cautions": []}
+    ratios = {
         key: {
             str(label): float(ratio)
             for label, ratio in zip(data["mode"].to_numpy(), data[name].to_numpy(), strict=True)
             if np.isfinite(ratio)
         }
         for key, name in (("asked", "requested"), ("achieved", "achieved"))
+    }
+    return {
+        "kind": str(data.attrs["kind"]),
+        **ratios,
+        "cautions": json.loads(data.attrs["cautions"]),
     }
 
 

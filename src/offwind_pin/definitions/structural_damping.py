@@ -14,15 +14,24 @@ Ratio = Annotated[Positive, Field(lt=1)]
 Ratios = Annotated[dict[ModeLabel, Ratio], Field(min_length=1)]
 
 
-class StiffnessDamping(Definition):
-    """Stiffness-proportional joint damping whose factors are calibrated on named modes.
+class _OfASystem(Definition):
+    """Ratios that refer to modes of a system.
 
-    foundation, still_water : of the system that the ratios refer to; by default the run's own
+    foundation, still_water : of that system; by default the run's own
     """
 
-    kind: Literal["stiffness"] = "stiffness"
     foundation: str | None = None
     still_water: bool | None = None
+
+    def wet(self, *, in_water: bool) -> bool:
+        """Whether that system is in water, for a run that is or is not."""
+        return in_water if self.still_water is None else self.still_water
+
+
+class StiffnessDamping(_OfASystem):
+    """Stiffness-proportional joint damping whose factors are calibrated on named modes."""
+
+    kind: Literal["stiffness"] = "stiffness"
     ratios: Ratios = key("ratios_of_critical")
 
     def ratio_of(self, label: str, frequency: float) -> float:
@@ -30,17 +39,13 @@ class StiffnessDamping(Definition):
         return self.ratios.get(label, math.nan)
 
 
-class ModalDamping(Definition):
+class ModalDamping(_OfASystem):
     """Damping ratios of modes, exact for the named ones.
 
-    foundation, still_water : of the system that the ratios of the named modes refer to; by default
-        the run's own
     others : ratio of every other mode up to the cutoff; beyond, damping grows with frequency
     """
 
-    kind: Literal["modal"]
-    foundation: str | None = None
-    still_water: bool | None = None
+    kind: Literal["modal"] = "modal"
     ratios: Ratios = key("ratios_of_critical")
     others: Ratio
     cutoff: Annotated[Positive, Field(ge=0.1, le=20)] = key("cutoff_hz", default=5.0)
@@ -51,14 +56,14 @@ class ModalDamping(Definition):
         return self.ratios.get(label, others)
 
 
-class RayleighDamping(Definition):
+class RayleighDamping(_OfASystem):
     """Damping alpha M + beta K of the structure.
 
-    Either the ratios of two named modes of the run's own system, or two frequencies and the ratios
+    Either the ratios of two named modes, or two frequencies and the ratios
     there, or both factors are given.
     """
 
-    kind: Literal["rayleigh"]
+    kind: Literal["rayleigh"] = "rayleigh"
     ratios: Ratios | None = key("ratios_of_critical", default=None)
     frequencies: tuple[Positive, Positive] | None = key("frequencies_hz", default=None)
     ratios_at_frequencies: tuple[Ratio, Ratio] | None = None

@@ -235,9 +235,7 @@ class Turbine(Definition):
     rotor: Rotor | None = None
     hydrodynamics: Hydrodynamics
     soil: Soil
-    structural_damping: Annotated[
-        StructuralDamping | None, BeforeValidator(with_kind)
-    ] = None
+    structural_damping: Annotated[StructuralDamping | None, BeforeValidator(with_kind)] = None
 
     def __repr__(self) -> str:
         return (

@@ -86,7 +86,8 @@ class CompiledPencil:
         twist = self._twists(vector)
         bodies = np.einsum("kij,kj->ki", inertia, twist)
         orientation, top = data.rotation[-1], twist[-1]
-        arm = np.array(chain.rna.center_of_mass) + [0.0, 0.0, chain.top - chain.origin[-1]]
+        x, y, z = chain.rna.center_of_mass
+        arm = np.array([x, y, z + chain.top - chain.origin[-1]])
         center = data.position[-1] + orientation @ arm
         force = chain.rna.mass * (top[:3] + np.cross(top[3:], center))
         about_center = orientation @ chain.rna.inertia @ orientation.T @ top[3:]
@@ -105,7 +106,9 @@ class CompiledPencil:
                 part = slice(model.first_point[n], model.first_point[n + 1])
                 powers[n, i] = dissipated_power(load, blocks[part], at_points[part])
         root = vectors[: model.roots]
-        powers[-1] = np.sum(root * (chain.data.root_damping[: model.roots, : model.roots] @ root), 0)
+        powers[-1] = np.sum(
+            root * (chain.data.root_damping[: model.roots, : model.roots] @ root), 0
+        )
         return powers
 
     def _twists(self, vector: Array) -> Array:
@@ -127,11 +130,12 @@ class CompiledPencil:
             points = slice(first, first + len(load.height))
             body = model.point_body[points]
             position = self._chain.data.motion[points, POSITION]
-            on_body = np.zeros((len(rate), chain.elements + 2, 6))
+            on_body = np.zeros((chain.elements + 2, len(rate), 6))
             moment = wrench[..., 3:] + np.cross(position, wrench[..., :3])
-            np.add.at(on_body, (slice(None), body), np.concatenate([wrench[..., :3], moment], 2))
-            above = on_body[:, ::-1].cumsum(axis=1)[:, ::-1]
-            rows.append(np.einsum("kdj,dj->kd", above[:, dof_body(chain)], joint))
+            about_origin = np.concatenate([wrench[..., :3], moment], axis=2)
+            np.add.at(on_body, body, about_origin.transpose(1, 0, 2))
+            above = on_body[::-1].cumsum(axis=0)[::-1]
+            rows.append(np.einsum("dkj,dj->kd", above[dof_body(chain)], joint))
             rates.append(rate)
         return np.concatenate(rows), np.concatenate(rates)
 

@@ -32,12 +32,17 @@ from offwind_pin.loads.point_load import (
     MOMENT_BY_POSITION,
     MOMENT_BY_SPIN,
     MOMENT_BY_TURN,
+    SPIN,
+    VELOCITY,
     PointForces,
     PointLoad,
     PointMotion,
     dissipated_power,
 )
 from offwind_pin.loads.root_restraint import FREE
+
+_RATE = np.r_[VELOCITY, SPIN]
+"""Columns of velocity and spin."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -161,7 +166,7 @@ class Equations:
         for n, (load, part, past) in enumerate(parts):
             blocks = load.tangents(0.0, points[part], 0.0, past).blocks()
             for i, rates in enumerate(moving):
-                rate = np.hstack([rates.velocity[part], rates.spin[part]])
+                rate = rates.columns()[part][:, _RATE]
                 powers[n, i] = dissipated_power(load, blocks, rate)
         if self.chain.roots:
             _, damping = self._root.tangents(q[:6], rest[:6], self._memory[-1])
@@ -295,6 +300,4 @@ def _sums(wrench: Array, linear: Array, angular: Array) -> Array:
     wrench : (k, n, 6) weights
     """
     by_velocity = np.tensordot(wrench[..., :3], linear, axes=([1, 2], [0, 1]))
-    return np.asarray(
-        by_velocity + np.tensordot(wrench[..., 3:], angular, axes=([1, 2], [0, 1]))
-    )
+    return np.asarray(by_velocity + np.tensordot(wrench[..., 3:], angular, axes=([1, 2], [0, 1])))
