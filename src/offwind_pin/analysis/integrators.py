@@ -343,6 +343,7 @@ def _channels(recorder: Recorder, step: float) -> Records:
         "displacement",
         "acceleration",
         "section_load",
+        "inertial_load",
         "imbalance",
         "soil_force",
         "stroke",

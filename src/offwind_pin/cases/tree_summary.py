@@ -56,7 +56,12 @@ def summary(tree: xr.DataTree) -> dict[str, Any]:
         found = _summarise_modal(tree, states[foundation], modes)
     else:
         found = _summarise_statics(tree, foundation, states)
-    return head | found | {"structural_damping": _damping(part(tree, "structural_damping"))}
+    damping = _damping(part(tree, "structural_damping"))
+    if histories is not None and "inertial_damping_share" in histories.attrs:
+        damping["inertial_share_of_section_loads"] = histories.attrs["inertial_damping_share"]
+        if "inertial_damping_caution" in histories.attrs:
+            damping["cautions"].append(histories.attrs["inertial_damping_caution"])
+    return head | found | {"structural_damping": damping}
 
 
 def summary_head(attributes: Mapping[Any, Any]) -> dict[str, Any]:

@@ -184,6 +184,19 @@ class HistoryWriter:
                 {"long_name": "largest residual relative to the load scale", "units": "1"},
             ),
         }
+        if block["inertial_load"].shape[1]:
+            part = "that structural damping against the inertial frame contributes, its size"
+            inertial = block["inertial_load"]
+            channels["inertial_damping_force"] = (
+                ("time", "height"),
+                inertial[..., 0],
+                _about(f"section force {part}", "N"),
+            )
+            channels["inertial_damping_moment"] = (
+                ("time", "height"),
+                inertial[..., 1],
+                _about(f"section moment {part}", "N m"),
+            )
         if len(self.soil):
             channels["soil_force"] = (
                 ("time", "soil_node", "direction"),

@@ -105,8 +105,12 @@ class Recorder(Record):
     cuts, segments, soil : what is recorded
     every : steps between records
     energies : (L,) addresses of the loads' kernels; 0 for a load that stores none
-    commit, at_cuts : addresses of the kernels that end a step, 0 without memory, and that record
-        motions and section loads
+    commit, at_cuts, inertial : addresses of the kernels that end a step, 0 without memory, that
+        record motions and section loads, and what of these is structural damping against the
+        inertial frame, 0 without any
+    first_inertial : (m,) first of the points, in order of height, at which such damping acts above
+        each cut
+    end_inertial : the point after the last of them
     tally : (2,) steps taken, records made
     clock : (1,) time of the last step in s
     power, energy : (2, L + 2) dissipated and worked, at the last step in W and so far in J
@@ -114,6 +118,8 @@ class Recorder(Record):
     time : (T,) in s
     displacement, acceleration : (T, m, 3) in m and m/s2
     section_load : (T, m, 6) in N and N m
+    inertial_load : (T, m, 2) size of force and moment that such damping contributes; (T, 0, 2)
+        without any
     imbalance : (T, g, 6) of the segments in N and N m
     soil_force : (T, n, 3) of the soil on the pile in N
     stroke : (T, D, 2) of the tuned mass dampers along x and y of their carriers in m
@@ -130,6 +136,9 @@ class Recorder(Record):
     energies: Counts
     commit: Count
     at_cuts: Count
+    inertial: Count
+    first_inertial: Counts
+    end_inertial: Count
     tally: Counts
     clock: Numbers
     power: Numbers2
@@ -139,6 +148,7 @@ class Recorder(Record):
     displacement: Numbers3
     acceleration: Numbers3
     section_load: Numbers3
+    inertial_load: Numbers3
     imbalance: Numbers3
     soil_force: Numbers3
     stroke: Numbers3
@@ -246,6 +256,23 @@ class Kernels(NamedTuple):
     energies: NDArrayInt
     commit: int
     at_cuts: int
+    inertial: int
+
+
+def inertial_points(
+    system: System, model: Model, loads: Sequence[PointLoad], height: Array
+) -> tuple[NDArrayInt, int]:
+    """First point of inertial damping above each cut, and the point after the last.
+
+    loads : all of a system, those of its structural damping side by side
+    height : (m,) of the cuts in m
+    """
+    ours = [load in system.structural_loads for load in loads]
+    points = np.flatnonzero(np.repeat(ours, np.diff(model.first_point)))
+    if len(points) == 0:
+        return np.zeros(len(height), dtype=np.intp), 0
+    above = [int(np.sum(~_is_above(system, model, z)[points])) for z in height]
+    return points[0] + np.array(above, dtype=np.intp), int(points[-1]) + 1
 
 
 def make_recorder(
@@ -253,6 +280,7 @@ def make_recorder(
     cuts: Cuts,
     segments: Segments,
     soil: SoilNodes,
+    inertial: tuple[NDArrayInt, int],
     kernels: Kernels,
     every: int,
     records: int,
@@ -267,6 +295,9 @@ def make_recorder(
         energies=kernels.energies,
         commit=kernels.commit,
         at_cuts=kernels.at_cuts,
+        inertial=kernels.inertial,
+        first_inertial=inertial[0],
+        end_inertial=inertial[1],
         tally=np.zeros(2, dtype=np.intp),
         clock=np.zeros(1),
         power=np.zeros((2, loads + 2)),
@@ -276,6 +307,7 @@ def make_recorder(
         displacement=np.zeros((records, m, 3)),
         acceleration=np.zeros((records, m, 3)),
         section_load=np.zeros((records, m, 6)),
+        inertial_load=np.zeros((records, m if kernels.inertial else 0, 2)),
         imbalance=np.zeros((records, len(segments.cut), 6)),
         soil_force=np.zeros((records, len(soil.height), 3)),
         stroke=np.zeros((records, len(model.tmd.body), 2)),

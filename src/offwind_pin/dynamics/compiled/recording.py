@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from numba import types
@@ -52,12 +53,14 @@ cuts_kernel = exchangeable(types.void(MODEL, DATA, CUTS, _MATRIX, _MATRIX, _MATR
 note_kernel = exchangeable(
     types.void(MODEL, DATA, STATE, RECORDER, ROW, types.intp, types.float64), nogil=True
 )
+inertial_kernel = exchangeable(types.void(MODEL, DATA, RECORDER, types.intp))
 tmd_between_kernel = exchangeable(_VECTORS(MODEL, DATA, types.float64, types.float64))
 """Decorator for ``kernel(model, data, low, high)``: what dampers between two heights need."""
 tmd_energies_kernel = exchangeable(_NUMBERS(MODEL, DATA))
 """Decorator for ``kernel(model, data)``: their kinetic and gravitational energies."""
 
 _energy, _commit, _at_cuts = energy_kernel.call, step_kernel.call, cuts_kernel.call
+_inertial = inertial_kernel.call
 _tmd_between, _tmd_energies = tmd_between_kernel.call, tmd_energies_kernel.call
 
 
@@ -104,6 +107,8 @@ def record(
             recorder.section_load[i],
         ),
     )
+    if recorder.inertial != 0:
+        _inertial(recorder.inertial, (model, data, recorder, i))
     imbalances(model, data, recorder, i)
     store_energies(model, data, state, recorder, i)
     for n in range(len(soil.point)):
@@ -168,6 +173,24 @@ def at_cuts(
         moment = subtract(moment, cross(position, force))
         for j in range(3):
             section_load[m, j], section_load[m, 3 + j] = force[j], moment[j]
+
+
+@inertial_kernel
+def record_inertial(model: Model, data: Data, recorder: Recorder, i: int) -> None:
+    """Set what inertial damping contributes to the section loads of a record."""
+    height, first, moved = recorder.cuts.height, recorder.first_inertial, recorder.displacement
+    force = moment = (0.0, 0.0, 0.0)
+    point = recorder.end_inertial
+    for m in range(len(height) - 1, -1, -1):
+        while point > first[m]:
+            point -= 1
+            pull, turn = point_wrench(data, point)
+            force = add(force, pull)
+            moment = add(moment, add(cross(row_of(data.motion, point), pull), turn))
+        position = add(row_of(moved[i], m), (0.0, 0.0, height[m]))
+        about = subtract(moment, cross(position, force))
+        recorder.inertial_load[i, m, 0] = math.sqrt(dot(force, force))
+        recorder.inertial_load[i, m, 1] = math.sqrt(dot(about, about))
 
 
 @inner
