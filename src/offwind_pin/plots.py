@@ -68,13 +68,17 @@ def psd(
 
     Parameters
     ----------
-    results : of :func:`simulate`
-    marked : frequencies in Hz by name: FA1, 3P, wave, ...
-    segment : of Welch's windows in s
+    results : Dataset
+        Of :func:`simulate`.
+    marked : mapping of str to float, Hz, optional
+        Frequencies by name: FA1, 3P, wave, ...
+    segment : float, s
+        Of Welch's windows.
 
     Raises
     ------
-    InputError : the run after the ramp is shorter than a segment
+    InputError
+        The run after the ramp is shorter than a segment.
     """
     length = float(results["time"][-1]) - float(results.attrs["ramp_s"])
     if not 0 < segment <= length:
@@ -101,7 +105,8 @@ def p_y_utilisation(system: System, state: StaticResult | xr.Dataset) -> Figure:
 
     Raises
     ------
-    InputError : the system has no p-y springs, or the run recorded nothing along its pile
+    InputError
+        The system has no p-y springs, or the run recorded nothing along its pile.
     """
     soil = soil_springs(system)
     if soil is None:
@@ -142,7 +147,8 @@ def save(figure: Figure, path: Path | str) -> None:
 
     Raises
     ------
-    InputError : another ending
+    InputError
+        Another ending.
     """
     target = Path(path)
     if target.suffix.lower() not in FORMATS:

@@ -31,12 +31,15 @@ def mode_shapes(system: System, modes: ModalResult, labels: Sequence[str] | None
 
     Parameters
     ----------
-    modes : of this system
-    labels : modes shown first, such as ``["FA1", "SS1"]``; by default the first that bend
+    modes : ModalResult
+        Of this system.
+    labels : sequence of str, optional
+        Modes shown first, such as ``["FA1", "SS1"]``; by default the first that bend.
 
     Raises
     ------
-    InputError : a label that is not among the modes, or too many
+    InputError
+        A label that is not among the modes, or too many.
     """
     chosen = None if labels is None else list(labels)
     return View(modes_dataset(system, modes), labels=chosen).page()
@@ -49,12 +52,15 @@ def time_history(
 
     Parameters
     ----------
-    results : of :func:`simulate`, or a directory of ``offwind run`` or its ``results.nc``
-    start, duration : of the part shown in s; by default the first 60 s after the ramp
+    results : Dataset, Path or str
+        Of :func:`simulate`, or a directory of ``offwind run`` or its ``results.nc``.
+    start, duration : float, s, optional
+        Of the part shown; by default the first 60 s after the ramp.
 
     Raises
     ------
-    InputError : no such results, or a part that they do not have
+    InputError
+        No such results, or a part that they do not have.
     """
     if isinstance(results, xr.Dataset):
         return View(results, start, duration).page()
@@ -73,14 +79,19 @@ def serve(
 
     Parameters
     ----------
-    page : HTML text
-    port : by default any that is free
-    browser : whether to open the page in a browser
-    announce : is given a line with the address once the page can be loaded
+    page : str
+        HTML text.
+    port : int
+        By default any that is free.
+    browser : bool
+        Whether to open the page in a browser.
+    announce : callable
+        Is given a line with the address once the page can be loaded.
 
     Raises
     ------
-    InputError : a port that cannot be used
+    InputError
+        A port that cannot be used.
     """
     with page_server(page, port) as server:
         url = address(server)

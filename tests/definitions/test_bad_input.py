@@ -102,7 +102,7 @@ TURBINE_FAULTS: dict[str, tuple[Callable[[Definition], None], list[str]]] = {
     "unsorted stations": (_reverse_stations, ["members.1", "rise strictly", "sort"]),
     "repeated station": (
         _set(*STATION, "z_m", to=31.01),
-        ["members.1", "31.01", "rise strictly"],
+        ["members.1", "two stations are at z_m = 31.01", "another member"],
     ),
     "a single station": (
         _set("members", 1, "stations", to=[{"z_m": 10, "diameter_m": 8, "thickness_m": 0.07}]),

@@ -21,9 +21,12 @@ class AerodynamicDamping:
 
     Attributes
     ----------
-    label : n labels as in :class:`ModalResult`
-    frequency_hz : (n,) of the modes without aerodynamic damping
-    ratio : (n,) of critical; negative where the thrust feeds the mode
+    label : list of str
+        n labels as in :class:`ModalResult`.
+    frequency_hz : (n,) array
+        Of the modes without aerodynamic damping.
+    ratio : (n,) array
+        Of critical; negative where the thrust feeds the mode.
     """
 
     label: list[str]
@@ -46,7 +49,8 @@ def aerodynamic_damping(
 
     Raises
     ------
-    InputError : a turbine without a block ``rotor``, or a wind off its table
+    InputError
+        A turbine without a block ``rotor``, or a wind off its table.
     """
     disc = rotor_disc(system.turbine)
     thrust = RotorThrust(disc, constant_wind(wind_speed), control, control_time, inflow_lag)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from offwind_pin.analysis.assemble import assemble
-from offwind_pin.analysis.foundation.registry import make_foundation
+from offwind_pin.analysis.foundation.registry import FOUNDATIONS, make_foundation
 from offwind_pin.analysis.structural_damping import damped
 from offwind_pin.base.errors import InputError
 from offwind_pin.definitions.element import Element
@@ -29,17 +29,23 @@ def build(
 
     Parameters
     ----------
-    foundation : a name, ``"clamped"`` for example, of the kinds in
-        :mod:`offwind_pin.analysis.foundation.registry`, or a :class:`Foundation`
-    sea : :class:`StillWater`, :class:`IrregularWaves`, or None for a dry structure
-    elements : number of multibody beam elements in all, by region, or None for the default, which
-        puts the first five frequencies within 0.1 % of the converged ones
-    stiffness : ``"flexibility"`` or ``"midpoint"``, see :func:`build_chain`
-    element : ``"euler_bernoulli"``, or ``"timoshenko"`` for elements that shear as well
+    foundation : str or Foundation
+        A name, ``"clamped"`` for example, of the kinds in
+        :mod:`offwind_pin.analysis.foundation.registry`, or a :class:`Foundation`.
+    sea : Sea, optional
+        :class:`StillWater`, :class:`IrregularWaves`, or None for a dry structure.
+    elements : int, dict of str to int, or None
+        Number of multibody beam elements in all, by region, or None for the default, which puts the
+        first five frequencies within 0.1 % of the converged ones.
+    stiffness : {"flexibility", "midpoint"}
+        ``"flexibility"`` or ``"midpoint"``, see :func:`build_chain`.
+    element : {"euler_bernoulli", "timoshenko"}
+        ``"euler_bernoulli"``, or ``"timoshenko"`` for elements that shear as well.
 
     Raises
     ------
-    InputError : an argument or a part of the turbine that cannot be used
+    InputError
+        An argument or a part of the turbine that cannot be used.
     """
     if not (sea is None or isinstance(sea, Sea)):
         raise InputError(
@@ -59,6 +65,13 @@ def build(
     def reference(kind: str | None, *, wet: bool) -> System:
         level = 0.0 if sea is None else sea.water_level
         locked = turbine.with_dampers_locked()
+        if kind is not None and kind not in FOUNDATIONS:
+            raise InputError(
+                f"turbine {turbine.name}, field structural_damping.foundation",
+                kind,
+                ", ".join(FOUNDATIONS),
+                "Choose one, or leave it out for the run's own.",
+            )
         if kind is not None:
             held, division = make_foundation(locked, kind), None
         else:

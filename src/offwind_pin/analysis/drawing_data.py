@@ -228,7 +228,8 @@ def soil_dataset(soil: SoilSprings, mudline: float, reached: Array | None = None
     Parameters
     ----------
     mudline : float, m
-    reached : (n,) array, m; largest lateral displacement of each node
+    reached : (n,) array, m, optional
+        Largest lateral displacement of each node.
     """
     depth = mudline - soil.height
     shown = np.unique(np.searchsorted(depth, np.array(_SHOWN_DEPTHS) * depth[-1] - 1e-9))

@@ -30,7 +30,8 @@ def check_engine(engine: str) -> None:
 
     Raises
     ------
-    InputError : with the names allowed
+    InputError
+        With the names allowed.
     """
     if engine not in get_args(Engine):
         raise InputError("engine", engine, ", ".join(get_args(Engine)), "Choose one.")
@@ -41,7 +42,8 @@ def engine_of(integrator: Integrator, engine: Engine | None) -> Engine:
 
     Raises
     ------
-    InputError : an unknown engine, or one that the integrator does not work with
+    InputError
+        An unknown engine, or one that the integrator does not work with.
     """
     if engine is None:
         return integrator.engines[0]
@@ -63,7 +65,8 @@ def resting_chain(
 
     Raises
     ------
-    InputError : an unknown engine
+    InputError
+        An unknown engine.
     """
     check_engine(engine)
     if engine == "pinocchio":
@@ -80,7 +83,8 @@ def pencil(system: System, about: StaticResult, engine: Engine) -> CompiledPenci
 
     Raises
     ------
-    InputError : an unknown engine
+    InputError
+        An unknown engine.
     """
     check_engine(engine)
     if engine == "pinocchio":

@@ -23,9 +23,14 @@ def modal_load(
 
     Parameters
     ----------
-    result : k modes
-    linear : equations of motion about the same state
-    gain : (k, k) array G, 1/s; symmetric
+    result : ModalResult
+        k modes.
+    linear : CompiledPencil
+        Equations of motion about the same state.
+    chain : Chain
+        Of the same system.
+    gain : (k, k) array, 1/s
+        G; symmetric.
     """
     rate, turn = np.linalg.eigh(gain)
     vectors = result.vector @ turn
@@ -43,7 +48,9 @@ def modal_load(
 def mass_loads(chain: Chain, alpha: float) -> tuple[MassDamping, CoupledDamping]:
     """Damping alpha M of the bodies, and of the rotor-nacelle assembly, undeformed.
 
-    alpha : 1/s
+    Parameters
+    ----------
+    alpha : float, 1/s
     """
     height = _body_heights(chain)[:-1]
     rows = [[body.mass] * 3 + [body.transverse] * 2 + [body.axial] for body in chain.body]

@@ -86,7 +86,8 @@ class Integrator(Protocol):
 
         Raises
         ------
-        StepFailed : with what the policy allows, a step did not converge
+        StepFailed
+            With what the policy allows, a step did not converge.
         """
 
     def describe(self) -> dict[str, Any]:
@@ -107,9 +108,12 @@ class GeneralizedAlpha:
 
     Attributes
     ----------
-    policy : of the steps
-    spectral_radius : numerical damping at infinite frequency, 1 for none
-    relative_tolerance, increment_tolerance : see :class:`Method`
+    policy : StepPolicy
+        Of the steps.
+    spectral_radius : float
+        Numerical damping at infinite frequency, 1 for none.
+    relative_tolerance, increment_tolerance : float
+        See :class:`Method`.
     """
 
     policy: StepPolicy
@@ -223,8 +227,10 @@ class SciPyIVP:
 
     Attributes
     ----------
-    method : ``"Radau"``, ``"BDF"`` or ``"LSODA"``
-    relative_tolerance, absolute_tolerance : of displacements in m and rad and of their rates
+    method : {"Radau", "BDF", "LSODA"}
+        ``"Radau"``, ``"BDF"`` or ``"LSODA"``.
+    relative_tolerance, absolute_tolerance : float, m and rad
+        Of displacements and of their rates.
     """
 
     method: Literal["Radau", "BDF", "LSODA"] = "Radau"

@@ -28,7 +28,8 @@ class JointDamping:
 
     Attributes
     ----------
-    factor : damping over stiffness in s, by region: (side-side, fore-aft, torsion)
+    factor : dict of str to (float, float, float), s
+        Damping over stiffness, by region: (side-side, fore-aft, torsion).
     """
 
     factor: dict[str, tuple[float, float, float]]
@@ -55,11 +56,17 @@ def calibrate(system: System, result: ModalResult, ratios: Mapping[str, float]) 
 
     Parameters
     ----------
-    system : undamped, with these modes
+    system : System
+        Undamped.
+    result : ModalResult
+        Its modes.
+    ratios : mapping of str to float
+        Damping ratios by label, of critical.
 
     Raises
     ------
-    InputError : ratios of modes that do not bend or twist the structure
+    InputError
+        Ratios of modes that do not bend or twist the structure.
     """
     regions = sorted({region for region in system.chain.region if region != "pile"})
     spread = _spread({mode_family(label) for label in ratios})
@@ -78,7 +85,7 @@ def calibrate(system: System, result: ModalResult, ratios: Mapping[str, float]) 
             label for label, row in zip(ratios, matrix[:, seen], strict=True) if not row.any()
         ]
         raise InputError(
-            "structural_damping.ratios_of_critical",
+            f"turbine {system.turbine.name}, field structural_damping.ratios_of_critical",
             ", ".join(missed),
             "modes that bend or twist the structure",
             "Dampers in the joints do not move in the others; leave them out.",

@@ -52,24 +52,36 @@ class ModalResult:
 
     Attributes
     ----------
-    frequency_hz : (n,) undamped natural frequencies
-    damping_ratio : (n,) phi' D phi / (2 omega), of critical; exact for light damping
-    damping_parts : (n, 4) what structure, soil, water and everything else (loads, tuned mass
-        dampers) contribute to it
-    damping_asked : (n,) structural damping ratio that the turbine asks for, NaN for none
-    label : n labels FA1, SS1, T1, V1, ... numbered by frequency within each family, the modes of
-        tuned mass dampers left out: these are TMD1, TMD2, ..., in each plane as many as dampers
-        slide in it, with the largest share of the potential energy in their springs, half or more
-    participation : (n, 4) share of the potential energy in FA, SS, T, V, a damper's springs in the
-        plane that they act in
-    damper_share : (n,) share of the potential energy in the springs of tuned mass dampers
-    height : (m,) heights of the element boundaries in m
-    shape : (n, m, 6) displacements (m) and rotations (rad) of the axis, unit peak in the mode's own
-        direction (translation, or rotation about z for torsion), positive there
-    mass_normalised : (n, m, 6) the same, with unit modal mass
-    vector : (nv, n) mass-normalised joint displacements
-    shape_peak_height_ratio : (n,) height of the peak from mudline (0) to yaw bearing (1)
-    engine : that evaluated the equations
+    frequency_hz : (n,) array
+        Undamped natural frequencies.
+    damping_ratio : (n,) array
+        phi' D phi / (2 omega), of critical; exact for light damping.
+    damping_parts : (n, 4) array
+        What structure, soil, water and everything else (loads, tuned mass dampers) contribute to it.
+    damping_asked : (n,) array
+        Structural damping ratio that the turbine file asks for; NaN for none.
+    label : list of str
+        n labels FA1, SS1, T1, V1, ... numbered by frequency within each family, the modes of tuned
+        mass dampers left out: these are TMD1, TMD2, ..., in each plane as many as dampers slide in
+        it, with the largest share of the potential energy in their springs, half or more.
+    participation : (n, 4) array
+        Share of the potential energy in FA, SS, T, V, a damper's springs in the plane that they act
+        in.
+    damper_share : (n,) array
+        Share of the potential energy in the springs of tuned mass dampers.
+    height : (m,) array, m
+        Heights of the element boundaries.
+    shape : (n, m, 6) array
+        Displacements (m) and rotations (rad) of the axis, unit peak in the mode's own direction
+        (translation, or rotation about z for torsion), positive there.
+    mass_normalised : (n, m, 6) array
+        The same, with unit modal mass.
+    vector : (nv, n) array
+        Mass-normalised joint displacements.
+    shape_peak_height_ratio : (n,) array
+        Height of the peak from mudline (0) to yaw bearing (1).
+    engine : {"compiled", "pinocchio"}
+        That evaluated the equations.
     """
 
     frequency_hz: Array
@@ -113,7 +125,8 @@ class ModalResult:
 
         Raises
         ------
-        InputError : no mode of that label among those computed
+        InputError
+            No mode of that label among those computed.
         """
         if label not in self.label:
             raise InputError(
@@ -205,14 +218,19 @@ def modes(
 
     Parameters
     ----------
-    n : number of modes
-    about : static state; by default that under gravity alone
-    engine : what evaluates the equations: ``"compiled"`` or ``"pinocchio"``
+    n : int
+        Number of modes.
+    about : StaticResult, optional
+        Static state; by default that under gravity alone.
+    engine : {"compiled", "pinocchio"}
+        What evaluates the equations: ``"compiled"`` or ``"pinocchio"``.
 
     Raises
     ------
-    InputError : n outside 1 ... number of degrees of freedom, or an unknown engine
-    SolverError : the static state was not found
+    InputError
+        n outside 1 ... number of degrees of freedom, or an unknown engine.
+    SolverError
+        The static state was not found.
     """
     check_engine(engine)
     if not 1 <= n <= system.nv:

@@ -49,13 +49,16 @@ def waves_dataset(
 
     Parameters
     ----------
-    histories : time histories, or None where none exist
-    segment : float, s; longest Welch segment of the spectrum of the run
+    histories : Dataset or None
+        Time histories, or None where none exist.
+    segment : float, s
+        Longest Welch segment of the spectrum of the run.
 
     Returns
     -------
-    Dataset : None for a sea without waves; without histories after the ramp it consists of
-        attributes alone
+    Dataset or None
+        None for a sea without waves; without histories after the ramp it consists of attributes
+        alone.
     """
     hydrodynamics, sea = system.hydrodynamics, system.sea
     waves = None if hydrodynamics is None else hydrodynamics.surface.waves
@@ -280,11 +283,14 @@ class Profile:
 
     Attributes
     ----------
-    time : in s
-    elevation : of the surface in m above the level
-    height : (n,) in m, from the mudline to where the strips are wet
-    velocity, acceleration : (n, 2) along x and y, in m/s and m/s2; the velocity with the current
-    current : (n, 2) in m/s
+    time : float, s
+    elevation : float, m
+        Of the surface above the level.
+    height : (n,) array, m
+        From the mudline to where the strips are wet.
+    velocity, acceleration : (n, 2) array, m/s and m/s2
+        Along x and y; the velocity with the current.
+    current : (n, 2) array, m/s
     """
 
     time: float
@@ -343,8 +349,9 @@ def component_density(waves: WaveField, width: float) -> tuple[Array, Array]:
 
     Returns
     -------
-    frequency : (b,) middles of the bands in Hz
-    density : (b,) in m2/Hz
+    frequency : (b,) array, Hz
+        Middles of the bands.
+    density : (b,) array, m2/Hz
     """
     each = max(1, int(np.ceil(width * waves.period)))
     moving = waves.harmonic > 0  # the set-down of waves of second order is no variance
@@ -365,9 +372,10 @@ class ForcePerLength:
 
     Attributes
     ----------
-    time : (t,) in s
-    height, length : (n,) of the strips in m
-    inertia, drag : (t, n)
+    time : (t,) array, s
+    height, length : (n,) array, m
+        Of the strips.
+    inertia, drag : (t, n) array
     """
 
     time: Array

@@ -75,47 +75,65 @@ def simulate(
 
     Parameters
     ----------
-    duration : simulated time in s, the ramp included
-    dt : time step in s
-    loads : what acts: at the yaw bearing a constant load (6,) Fx, Fy, Fz, Mx, My, Mz in N and N m
-        or a history, whose mean is taken over the time after the ramp; or point loads of one's own
-    ramp : seconds over which the fluctuations rise
-    start : ``"static"``, or ``"undeformed"``: gravity and mean loads are applied at t = 0
-    ground_motion : an earthquake, at its own times whatever the ramp; displacements and
-        accelerations are recorded as they are absolutely, not relative to the ground
-    output_dt : interval of the output in s, a multiple of dt; by default every step
-    spectral_radius : numerical damping at infinite frequency, 1 for none
-    integrator : instead of ``dt`` and ``spectral_radius``, see
-        :mod:`offwind_pin.analysis.integrators`
-    engine : what evaluates the equations of motion: ``"compiled"``, the default, or
-        ``"pinocchio"``, the only one for :class:`SciPyIVP`. What is recorded is evaluated from
-        joint displacements, velocities and accelerations by compiled code with either
-    heights : in m, where motion and section loads are recorded, by default the element boundaries;
-        mudline and yaw bearing are added
-    segments : pairs of heights in m whose equilibrium is recorded as ``segment_imbalance``, by
-        default the whole structure and its parts above and below the mudline
-    directory : where the results are kept as they come, ``results.nc`` in the end, so that memory
-        does not grow with the duration; the same call after a stop goes on where it left off, to
-        bitwise the same results
-    provenance : further attributes for the dataset
-    progress : called with the simulated time as it grows
+    duration : float, s
+        Simulated time, the ramp included.
+    dt : float, s
+        Time step.
+    loads : sequence of PointLoad, LoadHistory or array
+        Applied loads: at the yaw bearing a constant load (6,) Fx, Fy, Fz, Mx, My, Mz in N and N m,
+        or a history, whose mean is taken over the time after the ramp; or point loads of your own.
+    ramp : float
+        Seconds over which the fluctuations rise.
+    start : {"static", "undeformed"}
+        ``"static"``, or ``"undeformed"``: gravity and mean loads are applied at t = 0.
+    ground_motion : GroundMotion, optional
+        An earthquake, at its own times whatever the ramp; displacements and accelerations are
+        recorded as they are absolutely, not relative to the ground.
+    output_dt : float, s, optional
+        Interval of the output, a multiple of dt; by default every step.
+    spectral_radius : float
+        Numerical damping at infinite frequency, 1 for none.
+    integrator : Integrator, optional
+        Instead of ``dt`` and ``spectral_radius``, see :mod:`offwind_pin.analysis.integrators`.
+    engine : {"compiled", "pinocchio"}, optional
+        What evaluates the equations of motion: ``"compiled"``, the default, or ``"pinocchio"``, the
+        only one for :class:`SciPyIVP`. What is recorded is evaluated from joint displacements,
+        velocities and accelerations by compiled code with either.
+    heights : sequence of float, m, optional
+        Where motion and section loads are recorded, by default the element boundaries; mudline and
+        yaw bearing are added.
+    segments : sequence of (float, float), m, optional
+        Pairs of heights whose equilibrium is recorded as ``segment_imbalance``, by default the
+        whole structure and its parts above and below the mudline.
+    directory : Path or str, optional
+        Where the results are kept as they come, ``results.nc`` in the end, so that memory does not
+        grow with the duration; the same call after a stop goes on where it left off, to bitwise the
+        same results.
+    provenance : dict of str to object, optional
+        Further attributes for the dataset.
+    progress : callable, optional
+        Called with the simulated time as it grows.
 
     Returns
     -------
-    Dataset with ``displacement``, ``acceleration``, ``section_force`` and ``section_moment`` over
-    time and height, the mudline and tower-top channels, the applied load, ``soil_force`` at the
-    nodes of the soil, the waves, the ground's motion in an earthquake, the displacements of tuned
-    mass dampers, the ledger of energies, the solver's own account, and what a picture needs
-    (:mod:`offwind_pin.analysis.drawing_data`); see
-    ``attrs`` for versions, seeds and settings. With a ``directory`` it reads from the file there,
-    channel by channel as they are asked for.
+    Dataset
+        With ``displacement``, ``acceleration``, ``section_force`` and ``section_moment``
+        over time and height, the mudline and tower-top channels, the applied load, ``soil_force``
+        at the nodes of the soil, the waves, the ground's motion in an earthquake, the displacements
+        of tuned mass dampers, the ledger of energies, the solver's own account, and what a picture
+        needs (:mod:`offwind_pin.analysis.drawing_data`); see ``attrs`` for versions, seeds and
+        settings. With a ``directory`` it reads from the file there, channel by channel as they are
+        asked for.
 
     Raises
     ------
-    InputError : an argument that cannot be used, a history that is too short, waves that would
-        repeat, or a time step too long for them
-    SolverError : a step did not converge; ``results`` holds the dataset so far
-    InterruptedSimulation : the user stopped it; ``results`` holds the dataset so far
+    InputError
+        An argument that cannot be used, a history that is too short, waves that would repeat, or a
+        time step too long for them.
+    SolverError
+        A step did not converge; ``results`` holds the dataset so far.
+    InterruptedSimulation
+        The user stopped it; ``results`` holds the dataset so far.
     """
     _check_settings(duration, dt, ramp, output_dt)
     if start not in get_args(Start):
@@ -350,7 +368,8 @@ def _folder_store(
 
     Raises
     ------
-    InputError : blocks of another run, or of a run that cannot be identified
+    InputError
+        Blocks of another run, or of a run that cannot be identified.
     """
     unknown = None
     try:
@@ -368,7 +387,8 @@ def _fingerprint(chain: CompiledChain, sections: Sections) -> str:
 
     Raises
     ------
-    InputError : a load or root restraint whose content cannot be hashed
+    InputError
+        A load or root restraint whose content cannot be hashed.
     """
     root = chain.system.foundation.root
     parts = {f"load {load.name!r}": load.fingerprint for load in chain.acting}

@@ -34,16 +34,26 @@ class StaticResult:
 
     Attributes
     ----------
-    q : (nv,) joint displacements in m and rad
-    height : (m,) heights of the element boundaries in m
-    displacement : (m, 3) of the axis there, in m
-    rotation : (m, 3) small rotation of the axis about x and y (the third is zero), in rad
-    section_load : (m, 6) force (N) and moment (N m) that the part above exerts on the part below
-    iterations : Newton steps
-    residual : largest entry of the residual over the load scale
-    memory : (k,) what soil and foundation keep of their past once this load has acted
-    loads : that act; None in a state read from a file that loads acted on, which files leave out
-    engine : that evaluated the equations
+    q : (nv,) array, m and rad
+        Joint displacements.
+    height : (m,) array, m
+        Heights of the element boundaries.
+    displacement : (m, 3) array, m
+        Of the axis there.
+    rotation : (m, 3) array, rad
+        Small rotation of the axis about x and y (the third is zero).
+    section_load : (m, 6) array
+        Force (N) and moment (N m) that the part above exerts on the part below.
+    iterations : int
+        Newton steps.
+    residual : float
+        Largest entry of the residual over the load scale.
+    memory : (k,) array
+        What soil and foundation keep of their past once this load has acted.
+    loads : tuple of PointLoad or None
+        That act; None in a state read from a file that loads acted on, which files leave out.
+    engine : {"compiled", "pinocchio"}
+        That evaluated the equations.
     """
 
     q: Array
@@ -152,7 +162,8 @@ class StaticResult:
 
         Raises
         ------
-        InputError : the state was read from a file, which does not contain them
+        InputError
+            The state was read from a file, which does not contain them.
         """
         if self.loads is None:
             raise InputError(
@@ -183,15 +194,21 @@ def static(
 
     Parameters
     ----------
-    tower_top_load : (6,) Fx, Fy, Fz, Mx, My, Mz at the yaw bearing in N and N m, inertial frame
-    loads : further point loads
-    after : state of the same system whose load acted before, which soil with a memory remembers
-    engine : what evaluates the equations: ``"compiled"`` or ``"pinocchio"``
+    tower_top_load : (6,) array, N and N m, optional
+        Fx, Fy, Fz, Mx, My, Mz at the yaw bearing, inertial frame.
+    loads : sequence of PointLoad
+        Further point loads.
+    after : StaticResult, optional
+        State of the same system whose load acted before, which soil with a memory remembers.
+    engine : {"compiled", "pinocchio"}
+        What evaluates the equations: ``"compiled"`` or ``"pinocchio"``.
 
     Raises
     ------
-    InputError : a load that is not six finite numbers, or an unknown engine
-    SolverError : no equilibrium found, with the joint out of balance; or one that is unstable
+    InputError
+        A load that is not six finite numbers, or an unknown engine.
+    SolverError
+        No equilibrium found, with the joint out of balance; or one that is unstable.
     """
     acting = [*loads]
     if tower_top_load is not None:

@@ -47,11 +47,17 @@ def damped(system: System, asked: StructuralDamping, reference: Reference) -> Sy
 
     Parameters
     ----------
-    system : without structural damping
+    system : System
+        Without structural damping.
+    asked : StiffnessDamping, ModalDamping or RayleighDamping
+        From the turbine file.
+    reference : Reference
+        Makes the systems that ratios refer to.
 
     Raises
     ------
-    InputError : a mode or foundation that is not there, or ratios that cannot be
+    InputError
+        A mode or foundation that does not exist, or ratios that cannot be reached.
     """
     if isinstance(asked, ModalDamping):
         result = _by_modes(system, asked, reference)
@@ -68,7 +74,7 @@ def _by_joints(system: System, asked: StiffnessDamping, reference: Reference) ->
     """The factors of joint damping are calibrated on one system, and used on another."""
     calibrated = _referred_to(system, asked, reference)
     found = modes(calibrated, min(_SEARCHED_MODES, calibrated.nv))
-    _check_named(found, asked.ratios)
+    _check_named(calibrated, found, asked.ratios)
     damping = calibrate(calibrated, found, asked.ratios)
     ratios = joint_ratios(calibrated, found, damping.of(calibrated.chain).ravel())
     return system.with_damping(
@@ -102,7 +108,7 @@ def _by_rayleigh(system: System, asked: RayleighDamping, reference: Reference) -
     found, linear = _modes_up_to(own, _UNASKED_UP_TO, asked.ratios or {})
     by_mass = mass_ratios(found, linear, own.chain)
     by_stiffness = joint_ratios(own, found, own.chain.joint_stiffness.ravel())
-    alpha, beta = _factors(asked, found, by_mass, by_stiffness)
+    alpha, beta = _factors(own, asked, found, by_mass, by_stiffness)
     ratios = alpha * by_mass + beta * by_stiffness
     named = {} if asked.ratios is None else asked.ratios
     loads = mass_loads(system.chain, alpha) if alpha > 0 else ()
@@ -119,15 +125,19 @@ def _referred_to(system: System, asked: StructuralDamping, reference: Reference)
 
 
 def _factors(
-    asked: RayleighDamping, found: ModalResult, by_mass: Array, by_stiffness: Array
+    own: System, asked: RayleighDamping, found: ModalResult, by_mass: Array, by_stiffness: Array
 ) -> tuple[float, float]:
     """Factors alpha in 1/s and beta in s.
 
-    by_mass, by_stiffness : (n,) ratios of the modes per unit of each
+    Parameters
+    ----------
+    by_mass, by_stiffness : (n,) array
+        Ratios of the modes per unit of each.
 
     Raises
     ------
-    InputError : one of them would be negative
+    InputError
+        One of them would be negative.
     """
     if asked.alpha is not None and asked.beta is not None:
         return asked.alpha, asked.beta
@@ -145,7 +155,7 @@ def _factors(
     within = sorted(float(column[1] / column[0]) for column in matrix.T)
     if not within[0] <= wanted[1] / wanted[0] <= within[1]:
         raise InputError(
-            f"structural_damping.{field}",
+            f"{_field(own)}.{field}",
             f"{wanted[0]:g} at {names[0]} and {wanted[1]:g} at {names[1]}",
             f"a second ratio from {within[0]:.3g} to {within[1]:.3g} times the first, which "
             "Rayleigh damping can reach without negative factors",
@@ -188,7 +198,8 @@ def _modes_up_to(
 
     Raises
     ------
-    InputError : a named mode that is not there, or too many modes
+    InputError
+        A named mode does not exist, or there are too many modes.
     """
     state = static(system)
     count = min(_SEARCHED_MODES, system.nv)
@@ -198,10 +209,10 @@ def _modes_up_to(
         if enough or count in (_MOST_MODES, system.nv):
             break
         count = min(2 * count, _MOST_MODES, system.nv)
-    _check_named(found, named)
+    _check_named(system, found, named)
     if count < system.nv and found.frequency_hz[-1] <= frequency:
         raise InputError(
-            "structural_damping.cutoff_hz",
+            f"{_field(system)}.cutoff_hz",
             frequency,
             f"less than {found.frequency_hz[-1]:.4g} Hz, below which there are {count} modes",
             "Lower it.",
@@ -216,6 +227,10 @@ def _modes_up_to(
     return found.subset(kept), CompiledPencil(chain, state.q)
 
 
+def _field(system: System) -> str:
+    return f"turbine {system.turbine.name}, field structural_damping"
+
+
 def _in_joints(system: System, of_nodes: Array) -> Array:
     """(nv,) dampers of all joints, those of the nodes (N, d) given."""
     joints = system.joint_damping.copy()
@@ -223,11 +238,11 @@ def _in_joints(system: System, of_nodes: Array) -> Array:
     return joints
 
 
-def _check_named(found: ModalResult, named: Collection[str]) -> None:
+def _check_named(system: System, found: ModalResult, named: Collection[str]) -> None:
     for label in named:
         if label not in found.label:
             raise InputError(
-                f"structural_damping.ratios_of_critical.{label}",
+                f"{_field(system)}.ratios_of_critical.{label}",
                 label,
                 ", ".join(found.label),
                 "Name modes of the supported structure.",

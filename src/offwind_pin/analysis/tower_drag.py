@@ -19,7 +19,8 @@ def tower_drag(system: System, wind: TowerWind) -> TowerDrag:
 
     Raises
     ------
-    InputError : nothing of the structure is above water
+    InputError
+        Nothing of the structure is above water.
     """
     low, top = max(_water_line(system), system.chain.base), system.chain.top
     if low >= top:

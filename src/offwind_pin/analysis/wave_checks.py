@@ -53,8 +53,9 @@ def check_waves(system: System, duration: float, ramp: float, dt: float | None) 
 
     Raises
     ------
-    InputError : waves that repeat or bare the bed, or a crest that does not come in full; steps too
-        long for them
+    InputError
+        Waves that repeat or bare the bed, or a crest that does not come in full; steps too long for
+        them.
     """
     sea, hydrodynamics = system.sea, system.hydrodynamics
     if sea is None or hydrodynamics is None or hydrodynamics.surface.waves is None:

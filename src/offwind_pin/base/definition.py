@@ -25,6 +25,7 @@ from pydantic import (
 from pydantic.fields import FieldInfo
 
 from offwind_pin.base.errors import InputError
+from offwind_pin.base.input_files import check_file, is_file
 from offwind_pin.base.validation import input_error
 
 Array = NDArray[np.float64]
@@ -50,7 +51,7 @@ def _locate(value: Any, validate: ValidatorFunctionWrapHandler, info: Validation
         value, recorded = value["path"], value.get("sha256")
     folder = (info.context or {}).get("folder", "")
     path: Path = (folder / validate(value)).absolute()
-    if recorded is not None and path.is_file() and file_digest(path) != recorded:
+    if recorded is not None and is_file(path) and file_digest(path) != recorded:
         raise ValueError(
             f"{path} has changed since its SHA-256 was recorded; restore it, or leave sha256 out"
         )
@@ -58,7 +59,7 @@ def _locate(value: Any, validate: ValidatorFunctionWrapHandler, info: Validation
 
 
 def _file_record(path: Path) -> dict[str, str | None]:
-    return {"path": str(path), "sha256": file_digest(path) if path.is_file() else None}
+    return {"path": str(path), "sha256": file_digest(path) if is_file(path) else None}
 
 
 Number = Annotated[float, BeforeValidator(_reject_bool), Field(allow_inf_nan=False)]
@@ -80,7 +81,8 @@ def key(name: str, *, default: Any = ..., kw_only: bool | None = None) -> Any:
 
     Parameters
     ----------
-    name : key in a file, such as ``height_m``
+    name : str
+        Key in a file, such as ``height_m``.
     """
     return Field(default, validation_alias=name, serialization_alias=name, kw_only=kw_only)
 
@@ -125,7 +127,8 @@ class Definition(BaseModel):
 
         Raises
         ------
-        InputError : a value that cannot be used, named by its field
+        InputError
+            A value that cannot be used, named by its field.
         """
         called = type(self).__name__
         if len(values) > len(self._positional):
@@ -170,7 +173,8 @@ class Definition(BaseModel):
 
         Raises
         ------
-        InputError : a value that cannot be used
+        InputError
+            A value that cannot be used.
         """
         kept = {name: getattr(self, name) for name in self.model_fields_set}
         return type(self)(**(kept | changes))
@@ -181,7 +185,8 @@ class Definition(BaseModel):
 
         Raises
         ------
-        InputError : a file that cannot be read
+        InputError
+            A file that cannot be read.
         """
         text = json.dumps(_content(self), sort_keys=True, separators=(",", ":"))
         return hashlib.sha256(text.encode()).hexdigest()
@@ -260,11 +265,24 @@ def file_digest(path: Path) -> str:
 
     Raises
     ------
-    InputError : it cannot be read
+    InputError
+        It cannot be read.
     """
+    check_file(path)
     try:
         with path.open("rb") as file:
             return hashlib.file_digest(file, "sha256").hexdigest()
     except OSError as error:
         reason = error.strerror or "unreadable"
         raise InputError(str(path), reason, "a readable file", "Check the path.") from None
+
+
+def origin_of(path: Path) -> str:
+    """Name and digest of a file, for what was read from it.
+
+    Raises
+    ------
+    InputError
+        It cannot be read.
+    """
+    return f"{path.name} (SHA-256 {file_digest(path)})"

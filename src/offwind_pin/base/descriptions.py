@@ -37,7 +37,7 @@ def html_table(title: str, columns: Sequence[str], rows: Iterable[Sequence[objec
 
     Parameters
     ----------
-    columns : Sequence[str]
+    columns : sequence of str
         Headings; none where the first cell of each row names the row.
     """
     head = "".join(f"<th>{html.escape(column)}</th>" for column in columns)

@@ -24,10 +24,14 @@ class InputError(OffwindError, ValueError):
 
     Attributes
     ----------
-    where : str, file and field
-    received : object, the value, or a phrase that tells what is wrong
-    allowed : str, what could be there; empty where ``received`` is such a phrase
-    remedy : str, one sentence
+    where : str
+        File and field.
+    received : object
+        The value, or a phrase that says what is wrong.
+    allowed : str
+        What could be there; empty where ``received`` is such a phrase.
+    remedy : str
+        One sentence.
     """
 
     def __init__(self, where: str, received: object, allowed: str, remedy: str) -> None:
@@ -48,10 +52,14 @@ class SolverError(OffwindError, RuntimeError):
 
     Attributes
     ----------
-    time : simulated time of the failed step in s (``None`` for a static solve)
-    step : number of the failed step or iteration
-    joint : name of the joint with the largest residual
-    results : dataset of the results so far, or None
+    time : float or None, s
+        Simulated time of the failed step (``None`` for a static solve).
+    step : int
+        Number of the failed step or iteration.
+    joint : str
+        Name of the joint with the largest residual.
+    results : object
+        Dataset of the results so far, or None.
     """
 
     def __init__(
@@ -81,8 +89,10 @@ class InterruptedSimulation(OffwindError):
 
     Attributes
     ----------
-    time : last recorded time in s
-    results : dataset of the results so far
+    time : float, s
+        Last recorded time.
+    results : object
+        Dataset of the results so far.
     """
 
     def __init__(self, time: float, results: Any) -> None:

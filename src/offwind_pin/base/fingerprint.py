@@ -28,7 +28,8 @@ def content_hash(*values: object) -> str:
 
     Raises
     ------
-    NoFingerprintError : something else is among the values
+    NoFingerprintError
+        Something else is among the values.
     """
     digest = hashlib.sha256()
     for value in values:

@@ -1,128 +1,195 @@
-"""Text files of numbers; errors name the line."""
+"""Text files of numbers; errors name the line.
+
+A file is read in pieces. Each goes to NumPy's parser first; what that does not read, or reads
+differently from the rules below, is read again line by line, which is slow and names the fault.
+"""
 
 from __future__ import annotations
 
 import csv
+import io
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from offwind_pin.base.errors import InputError
+from offwind_pin.base.input_files import check_file
+
+Array = NDArray[np.float64]
+Lines = NDArray[np.int64]
 
 _GAP = 5.0
 """Times the median step, beyond which rows are missing."""
-_MANY = 20
+_SAMPLED = 20
 """Steps from which on a file is sampled, and not a table of corners written by hand."""
+_LONGEST_SPAN = 1e5
+"""s; as long as the longest simulation of a case."""
+_PIECE = 4_000_000
+"""Characters that are read at once."""
+_LONGEST_LINE = 1_000_000
+
+_NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
+_DECIMAL_COMMA = re.compile(r"[+-]?[0-9]+,[0-9]+(?:[eE][+-]?[0-9]+)?")
+_NUMERALS = b"0123456789+-.eE,; \t\n"
+CLOSING_LINE = r"^[ \t]*This output file was closed on[^\n]*"
+"""The line with which HydroDyn, SubDyn and other modules of OpenFAST end a text file."""
+_REMARK = re.compile(rf"[#!%][^\n]*|{CLOSING_LINE}", re.MULTILINE)
+_LINE = re.compile(r"^.*\S.*$", re.MULTILINE)
+_CSV_REMARK = re.compile(r"^[ \t]*#[^\n]*", re.MULTILINE)
+_TIME_UNIT = re.compile(
+    r"(?<![a-z])(?:t|time)(?:_| *[\[(/] *| +in +)"
+    r"(seconds?|secs?|s|msecs?|ms|milliseconds?|us|microseconds?|minutes?|mins?|hours?|h)(?![a-z])",
+    re.IGNORECASE,
+)
+
+DECIMAL_COMMAS = "Are these decimal commas? Write decimal points."
 
 
-def read_text(path: Path) -> str:
-    """A text file, with or without a byte-order mark.
+def parse_number(text: str) -> float | None:
+    """A finite decimal number written in ASCII, else None.
+
+    ``float`` alone would take ``4_0`` and the digits of other scripts too.
+    """
+    if _NUMBER.fullmatch(text) is None:
+        return None
+    value = float(text)
+    return value if math.isfinite(value) else None
+
+
+@dataclass(frozen=True, eq=False)
+class NumberTable:
+    """Rows of numbers.
+
+    Attributes
+    ----------
+    path : Path
+    names : tuple of str
+        Cells of the header; none without a header.
+    values : (n, c) array
+    lines : (n,) int array
+        Line of each row.
+    remarks : str
+        Header and comments, as far as the first rows.
+    """
+
+    path: Path
+    names: tuple[str, ...]
+    values: Array
+    lines: Lines
+    remarks: str
+
+
+def read_numbers(path: Path, columns: tuple[str, ...]) -> NumberTable:
+    """A CSV file with a header of these names; lines that start with ``#`` are comments.
 
     Raises
     ------
-    InputError : it is missing, cannot be read, or is not text
+    InputError
+        Missing or empty file, wrong header, a cell that is not a finite number.
     """
-    try:
-        return path.read_text(encoding="utf-8-sig")
-    except FileNotFoundError:
-        raise InputError(str(path), "no such file", "an existing file", "Check the path.") from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(str(path), str(error), "a readable UTF-8 text file", "Check it.") from None
 
+    def head(cells: list[str], where: str) -> tuple[str, ...]:
+        if tuple(cells) != columns:
+            allowed = f"the header {','.join(columns)}"
+            raise InputError(where, ",".join(cells), allowed, "Name the columns so.")
+        return columns
 
-def read_numbers(path: Path, columns: tuple[str, ...]) -> list[tuple[int, tuple[float, ...]]]:
-    """Rows of numbers from a CSV file with a header, each with its line number.
-
-    Lines that start with ``#`` are comments.
-
-    Raises
-    ------
-    InputError : missing or empty file, wrong header, a cell that is not a finite number
-    """
-    header_seen = False
-    rows = []
-    for line, raw in enumerate(read_text(path).splitlines(), 1):
-        text = raw.strip()
-        if not text or text.startswith("#"):
-            continue
-        cells = [cell.strip() for cell in next(csv.reader([text]))]
-        if not header_seen:
-            if tuple(cells) != columns:
-                raise InputError(
-                    f"{path}, line {line}",
-                    ",".join(cells),
-                    f"the header {','.join(columns)}",
-                    "Name the columns so.",
-                )
-            header_seen = True
-            continue
-        rows.append((line, to_numbers(path, line, cells, len(columns))))
-    if not rows:
+    table = read_csv(path, head)
+    if not len(table.values):
         raise InputError(
             str(path), "no rows of numbers", "a header and one row or more", "Is the file complete?"
         )
-    return rows
+    return table
 
 
-def read_time_columns(
-    path: Path, count: int, *, fewest: int = 2, header: bool = False
-) -> tuple[NDArray[np.float64], list[int], str]:
-    """Columns of numbers over time, the time first.
-
-    Columns are separated by blanks, tabs, commas or semicolons; ``#``, ``!`` and ``%`` start a
-    comment.
+def read_csv(path: Path, head: Callable[[list[str], str], tuple[str, ...]]) -> NumberTable:
+    """A CSV file with a header; lines that start with ``#`` are comments.
 
     Parameters
     ----------
-    count : number of columns, the time included
-    fewest : number of rows that the file must have
-    header : whether the first line may name the columns
-
-    Returns
-    -------
-    (n, count) numbers, the n line numbers, and the text of the file
+    head : callable
+        The names of the columns, from the cells of the header and its place in the file.
 
     Raises
     ------
-    InputError : a missing, empty or short file; a cell that is not a finite number; times that do
-        not rise, or that leave a gap
+    InputError
+        A missing file, a cell that is not a finite number, and what ``head`` raises.
     """
-    text = read_text(path)
-    rows: list[tuple[float, ...]] = []
-    lines: list[int] = []
-    first = True
-    for line, raw in enumerate(text.splitlines(), 1):
-        data = re.split(r"[#!%]", raw, maxsplit=1)[0].strip()
-        if not data:
-            continue
-        cells = re.split(r"\s*[,;]\s*|\s+", data)
-        named = header and first and not any(_is_number(cell) for cell in cells)
-        first = False
-        if not named:
-            rows.append(to_numbers(path, line, cells, count))
-            lines.append(line)
-    if len(rows) < fewest:
-        allowed = f"{fewest} rows or more"
-        raise InputError(str(path), f"{len(rows)} rows", allowed, "Is the file complete?")
-    values = np.array(rows)
-    check_times(path, values[:, 0], lines, "line")
-    return values, lines, text
+
+    def first(line: str, where: str) -> tuple[str, ...]:
+        return head([cell.strip() for cell in next(csv.reader([line]))], where)
+
+    return _read(path, _CSV_REMARK, first, None, ",")
 
 
-def check_times(path: Path, time: NDArray[np.float64], place: Sequence[int], counted: str) -> None:
+def read_time_columns(
+    path: Path,
+    count: int,
+    *,
+    coarsest: float,
+    sampled: int = _SAMPLED,
+    fewest: int = 2,
+    header: bool = False,
+) -> NumberTable:
+    """Columns of numbers over time in s, the time first.
+
+    Columns are separated by blanks or tabs, by commas, or by semicolons; ``#``, ``!`` and ``%``
+    start a comment. A comment or header that names another unit of time (``time [ms]``) is refused.
+    So are times that look like ms, unless a comment or header names s (``time [s]``).
+
+    Parameters
+    ----------
+    count : int
+        Number of columns, the time included.
+    coarsest : float, s
+        Longer steps look like ms.
+    sampled : int
+        Rows from which on the steps are judged.
+    fewest : int
+        Number of rows that the file must have.
+    header : bool
+        Whether the first line may name the columns.
+
+    Raises
+    ------
+    InputError
+        A missing, empty or short file; a cell that is not a finite number; decimal commas; times
+        that do not rise, that leave a gap, or that are not in s.
+    """
+
+    def first(line: str, where: str) -> tuple[str, ...]:
+        cells = re.split(r"\s*[,;]\s*|\s+", line)
+        named = header and not any(parse_number(cell) is not None for cell in cells)
+        return tuple(cells) if named else ()
+
+    table = _read(path, _REMARK, first, count, None)
+    if len(table.values) < fewest:
+        received = f"{len(table.values)} rows"
+        raise InputError(str(path), received, f"{fewest} rows or more", "Is the file complete?")
+    time = table.values[:, 0]
+    check_times(path, time, table.lines, "line")
+    check_time_unit(path, table.remarks, time, coarsest, sampled)
+    return table
+
+
+def check_times(path: Path, time: Array, place: Lines, counted: str) -> None:
     """Refuse times (t,) that do not rise, or that leave a gap in evenly sampled ones.
 
     Parameters
     ----------
-    place : (t,) where they are in the file, in what ``counted`` names
+    place : (t,) int array
+        Where they are in the file, in what ``counted`` names.
 
     Raises
     ------
-    InputError : with the place of the first fault
+    InputError
+        With the place of the first fault.
     """
     step = np.diff(time)
     back = np.flatnonzero(~(step > 0))
@@ -134,7 +201,7 @@ def check_times(path: Path, time: NDArray[np.float64], place: Sequence[int], cou
             f"a time later than that of {counted} {place[i]} ({time[i]:g} s)",
             "Sort the rows by time and remove repeated ones.",
         )
-    if len(step) < _MANY:
+    if len(step) < _SAMPLED:
         return
     usual = float(np.median(step))
     gaps = np.flatnonzero(step > _GAP * usual)
@@ -148,33 +215,238 @@ def check_times(path: Path, time: NDArray[np.float64], place: Sequence[int], cou
         )
 
 
+def check_time_unit(
+    path: Path, remarks: str, time: Array, coarsest: float, sampled: int = _SAMPLED
+) -> None:
+    """Refuse times (t,) that are named, or look, as if in another unit than s.
+
+    Parameters
+    ----------
+    remarks : str
+        Header and comments, where a unit may be named.
+    coarsest : float, s
+    sampled : int
+        See :func:`read_time_columns`.
+
+    Raises
+    ------
+    InputError
+        With the unit, or with the step.
+    """
+    named = _TIME_UNIT.search(remarks)
+    if named is not None:
+        if named[1].lower().rstrip("s") not in ("", "sec", "second"):
+            raise InputError(f"{path}, time", named[0], "time in s", "Convert the times to s.")
+        return
+    if len(time) <= sampled:
+        return
+    step, span = float(np.median(np.diff(time))), float(time[-1] - time[0])
+    if step > coarsest or span > _LONGEST_SPAN:
+        raise InputError(
+            f"{path}, time",
+            f"{len(time)} rows {step:g} s apart, {span:g} s in all",
+            f"steps up to {coarsest:g} s and {_LONGEST_SPAN:g} s in all",
+            "Are the times in ms? Convert them to s; if they are in s, write the comment "
+            "'# time [s]' above them.",
+        )
+
+
 def to_numbers(path: Path, line: int, cells: list[str], count: int) -> tuple[float, ...]:
     """Finite numbers from the cells of one line.
 
     Raises
     ------
-    InputError : a wrong number of cells, or a cell that is not a finite number
+    InputError
+        A wrong number of cells, or a cell that is not a finite number.
     """
     where = f"{path}, line {line}"
     if len(cells) != count:
         raise InputError(where, f"{len(cells)} cells", f"{count} cells", "Is the line complete?")
     values = []
     for column, cell in enumerate(cells, 1):
-        try:
-            value = float(cell)
-        except ValueError:
-            value = float("nan")
-        if not math.isfinite(value):
-            raise InputError(
-                f"{where}, column {column}", cell, "a finite number", "Correct the cell."
-            )
+        value = parse_number(cell)
+        if value is None:
+            remedy = DECIMAL_COMMAS if _DECIMAL_COMMA.fullmatch(cell) else "Correct the cell."
+            raise InputError(f"{where}, column {column}", cell, "a finite number", remedy)
         values.append(value)
     return tuple(values)
 
 
-def _is_number(cell: str) -> bool:
+def pieces(path: Path) -> Iterator[str]:
+    """Text of a file in pieces of whole lines, a character a byte; ends of lines are line feeds.
+
+    Raises
+    ------
+    InputError
+        A file that cannot be read, or is not text.
+    """
+    check_file(path)
+    rest = ""
     try:
-        float(cell)
-    except ValueError:
-        return False
-    return True
+        with path.open(encoding="latin-1", newline=None) as file:
+            first = file.read(_PIECE).removeprefix("\xef\xbb\xbf")  # the byte-order mark
+            for piece in chain([first], iter(lambda: file.read(_PIECE), "")):
+                piece = rest + piece
+                end = piece.rfind("\n") + 1
+                rest = piece[end:]
+                if "\0" in piece or len(rest) > _LONGEST_LINE:
+                    allowed = f"text in lines of up to {_LONGEST_LINE} characters"
+                    raise InputError(str(path), "bytes that are no text", allowed, "Check it.")
+                if end:
+                    yield piece[:end]
+    except OSError as error:
+        reason = error.strerror or str(error)
+        raise InputError(str(path), reason, "a readable file", "Check it.") from None
+    if rest:
+        yield rest
+
+
+def without_remarks(text: str, remark: re.Pattern[str]) -> str:
+    """A piece of text without what a pattern finds; its lines stay where they are."""
+    marked = any(mark in text for mark in ("#", "!", "%", "This output file"))
+    return remark.sub("", text) if marked else text
+
+
+class RowReader:
+    """Rows of numbers from pieces of text, each with its line.
+
+    Parameters
+    ----------
+    count : int
+        Number of columns.
+    separator : str or None
+        Comma or blank; None for what each line has: blanks, commas or semicolons.
+    spoilt : callable, optional
+        Number for a cell that is none; without it such a cell is refused.
+    """
+
+    def __init__(
+        self,
+        path: Path,
+        count: int,
+        separator: str | None,
+        spoilt: Callable[[str], float] | None = None,
+    ) -> None:
+        self.path = path
+        self.count = count
+        self.separator = separator
+        self.spoilt = spoilt
+        self.lines: list[Lines] = []
+        self.values = np.empty((0, count))
+
+    def add(self, text: str, line: int) -> None:
+        """Rows of a piece whose first line has this number.
+
+        Raises
+        ------
+        InputError
+            A line that cannot be read.
+        """
+        rows = self._at_once(text)
+        if rows is None:
+            filled = [(i, one) for i, one in enumerate(text.split("\n"), line) if one.strip()]
+            rows = np.array([self._one(i, one) for i, one in filled]).reshape(-1, self.count)
+            lines = np.array([i for i, _ in filled], dtype=np.int64)
+        elif len(rows) == text.count("\n") + (not text.endswith("\n")):
+            lines = np.arange(line, line + len(rows))
+        else:
+            lines = np.array([i for i, t in enumerate(text.split("\n"), line) if t.strip()])
+        before = len(self.values)
+        self.values.resize((before + len(rows), self.count), refcheck=False)  # grows in place
+        self.values[before:] = rows
+        self.lines.append(lines)
+
+    def _at_once(self, text: str) -> Array | None:
+        """The rows (n, c) by NumPy's parser; None unless they are surely what the rules give."""
+        begin = text[: text.find("\n", len(text) - len(text.lstrip()))]
+        delimiter = self.separator or next((mark for mark in ",;" if mark in begin), " ")
+        try:
+            encoded = text.encode("ascii")
+        except UnicodeEncodeError:
+            return None
+        if not begin.strip() or encoded.translate(None, _NUMERALS):
+            return None
+        try:
+            rows = np.loadtxt(
+                io.BytesIO(encoded), delimiter=delimiter.strip() or None, ndmin=2, comments=None
+            )
+        except ValueError:
+            return None
+        return rows if rows.shape[1] == self.count and np.all(np.isfinite(rows)) else None
+
+    def _one(self, line: int, text: str) -> tuple[float, ...]:
+        cells = self._cells(line, text)
+        if self.spoilt is None or len(cells) != self.count:
+            return to_numbers(self.path, line, cells, self.count)
+        read = (parse_number(cell) for cell in cells)
+        return tuple(
+            self.spoilt(cell) if value is None else value
+            for cell, value in zip(cells, read, strict=True)
+        )
+
+    def _cells(self, line: int, text: str) -> list[str]:
+        where = f"{self.path}, line {line}"
+        separators = [mark for mark in ",;" if mark in text]
+        if self.separator == " " or (self.separator is None and not separators):
+            return text.split()
+        if self.separator == ",":
+            cells = [cell.strip() for cell in next(csv.reader([text]))]
+        else:
+            cells = [cell.strip() for cell in text.split(separators[0])]
+        if "," in separators and len(cells) > self.count:
+            received, allowed = f"{len(cells)} cells between commas", f"{self.count}"
+            raise InputError(where, received, allowed, DECIMAL_COMMAS)
+        if self.separator is None and (
+            len(separators) > 1 or any(len(cell.split()) > 1 for cell in cells)
+        ):
+            raise InputError(
+                where,
+                text.strip(),
+                "cells separated by blanks, by commas or by semicolons, and by one of them alone",
+                DECIMAL_COMMAS,
+            )
+        return cells
+
+
+def _read(
+    path: Path,
+    remark: re.Pattern[str],
+    first: Callable[[str, str], tuple[str, ...]],
+    count: int | None,
+    separator: str | None,
+) -> NumberTable:
+    """Rows of a file.
+
+    Parameters
+    ----------
+    remark : Pattern
+        What is no data.
+    first : callable
+        Names of the columns, from the first line that is no comment and its place; none where that
+        line is a row already.
+    count : int or None
+        Number of columns; None for that of the names.
+    """
+    names: tuple[str, ...] = ()
+    reader: RowReader | None = None
+    remarks: list[str] = []
+    line = 1
+    for piece in pieces(path):
+        data = without_remarks(piece, remark)
+        begin = _LINE.search(data) if reader is None else None
+        if reader is None:
+            remarks += remark.findall(piece)
+        if begin is not None:
+            where = f"{path}, line {line + data.count(chr(10), 0, begin.start())}"
+            head = begin[0].encode("latin-1").decode("utf-8", "replace").strip()
+            names = first(head, where)
+            if names:
+                remarks.append(head)
+                data = data[: begin.start()] + data[begin.end() :]
+            reader = RowReader(path, count or len(names), separator)
+        if reader is not None:
+            reader.add(data, line)
+        line += piece.count("\n")
+    if reader is None:
+        return NumberTable(path, (), np.empty((0, count or 0)), np.empty(0, np.int64), "")
+    return NumberTable(path, names, reader.values, np.concatenate(reader.lines), "\n".join(remarks))

@@ -21,9 +21,12 @@ def input_error(
 
     Parameters
     ----------
-    where : file, or class, that the fault is in
-    data : what was given
-    by_alias : whether fields are named as in a file, or as in Python
+    where : str
+        File, or class, that the fault is in.
+    data : object
+        What was given.
+    by_alias : bool
+        Whether fields are named as in a file, or as in Python.
     """
     found = sorted(error.errors(), key=lambda item: item["type"] != "extra_forbidden")
     first = found[0]

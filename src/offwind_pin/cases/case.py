@@ -10,6 +10,7 @@ from pydantic import AfterValidator, BeforeValidator, Field, ValidationInfo, mod
 from offwind_pin.analysis.build import build
 from offwind_pin.analysis.foundation.registry import FOUNDATIONS
 from offwind_pin.base.definition import Definition, NonNegative, Number, Positive, Seed, key
+from offwind_pin.base.input_files import is_file
 from offwind_pin.cases.schema.tower_top import TowerTopLoadChoice
 from offwind_pin.cases.shipped import shipped_cases
 from offwind_pin.definitions.element import Element
@@ -35,7 +36,7 @@ def _load_turbine(value: Any, info: ValidationInfo) -> Any:
     if not isinstance(value, str | Path):
         return value
     local = Path((info.context or {}).get("folder", "")) / value
-    return load_turbine(local if local.is_file() else value)
+    return load_turbine(local if is_file(local) else value)
 
 
 FoundationName = Annotated[str, AfterValidator(_known_foundation)]
@@ -195,7 +196,8 @@ class Case(Definition):
 
         Raises
         ------
-        InputError : a part of the turbine or of the sea that cannot be used
+        InputError
+            A part of the turbine or of the sea that cannot be used.
         """
         name = self.foundation if foundation is None else foundation
         made = FOUNDATIONS[name].make(self.turbine)
@@ -210,7 +212,8 @@ def load_case(name_or_path: str | Path) -> Case:
 
     Raises
     ------
-    InputError : the name is unknown, or the file cannot be read or understood
+    InputError
+        The name is unknown, or the file cannot be read or understood.
     """
     path = find_definition(name_or_path, shipped_cases(), "case")
     return read_definition(path, Case)

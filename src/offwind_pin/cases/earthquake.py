@@ -44,9 +44,12 @@ class CaseEarthquake:
 
     Attributes
     ----------
-    motion : of the ground
-    cautions : what looks wrong with it
-    gravity : in m/s2, for the Arias intensity
+    motion : GroundMotion
+        Of the ground.
+    cautions : list of str
+        What looks wrong with it.
+    gravity : float, m/s2
+        For the Arias intensity.
     level : that is reported, the highest
     """
 
@@ -60,7 +63,8 @@ class CaseEarthquake:
 
         Raises
         ------
-        InputError : a record that cannot be used, or that begins after the end
+        InputError
+            A record that cannot be used, or that begins after the end.
         """
         motion, cautions = earthquake.ground_motion()
         for caution in cautions:

@@ -47,12 +47,14 @@ def identify(
 
     Returns
     -------
-    Dataset : identified modes over the nodes, the computed ones (``computed_...``), and singular
-        values over frequency
+    Dataset
+        Identified modes over the nodes, the computed ones (``computed_...``), and singular values
+        over frequency.
 
     Raises
     ------
-    InputError : modes that were not computed, or a record too short for the settings
+    InputError
+        Modes that were not computed, or a record too short for the settings.
     """
     height = np.linspace(system.turbine.site.mudline, system.chain.top, asked.nodes)
     rows = [modes.index(label) for label in LABELS]

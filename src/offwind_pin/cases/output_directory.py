@@ -13,7 +13,8 @@ def check_writable(directory: Path) -> None:
 
     Raises
     ------
-    InputError : something on the way is a file, or must not be written to
+    InputError
+        Something on the way is a file, or must not be written to.
     """
     nearest = directory.absolute()
     while not os.path.lexists(nearest):

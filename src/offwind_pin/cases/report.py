@@ -17,7 +17,8 @@ def report(tree: xr.DataTree) -> str:
 
     Parameters
     ----------
-    tree : results of a case, from :func:`offwind_pin.results.reading.open_case`
+    tree : DataTree
+        Results of a case, from :func:`offwind_pin.results.reading.open_case`.
     """
     return render_report(tree, summary(tree))
 
@@ -27,7 +28,8 @@ def report_again(directory: Path) -> Path:
 
     Raises
     ------
-    InputError : no results of a case there
+    InputError
+        No results of a case there.
     """
     path = directory / "report.html"
     with open_case(directory) as tree:

@@ -59,8 +59,10 @@ class _Solved:
 
     Attributes
     ----------
-    root : main dataset; None for time histories, which are in their file already
-    groups : datasets by path in the tree; None for those that the case does not have
+    root : Dataset or None
+        Main dataset; None for time histories, which are in their file already.
+    groups : Groups
+        Datasets by path in the tree; None for those that the case does not have.
     simulated : float, s
     """
 
@@ -83,19 +85,26 @@ def run_case(
 
     Parameters
     ----------
-    case : a case, the name of a shipped one, or the path of a YAML file
-    out : directory for the results, created if necessary
-    report : whether to write ``report.html``; ``offwind report`` makes it later
-    progress : called with simulated time and duration in s
+    case : Case, str or Path
+        A case, the name of a shipped one, or the path of a YAML file.
+    out : Path or str
+        Directory for the results, created if necessary.
+    report : bool
+        Whether to write ``report.html``; ``offwind report`` makes it later.
+    progress : callable, optional
+        Called with simulated time and duration, in s.
 
     Returns
     -------
-    dict : the content of ``summary.json``
+    dict of str to object
+        The content of ``summary.json``.
 
     Raises
     ------
-    InputError : something in the case cannot be used
-    SolverError, InterruptedSimulation : the solve stopped; the results so far are in ``out``
+    InputError
+        Something in the case cannot be used.
+    SolverError, InterruptedSimulation
+        The solve stopped; the results so far are in ``out``.
     """
     out = Path(out)
     check_writable(out)

@@ -32,7 +32,8 @@ def settle(
 
     Returns
     -------
-    Dataset : displacement of the yaw bearing over time, and largest distance from the static state
+    Dataset
+        Displacement of the yaw bearing over time, and largest distance from the static state.
     """
     data = simulate(
         system,

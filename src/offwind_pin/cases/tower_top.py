@@ -49,10 +49,14 @@ class TowerTop:
 
     Attributes
     ----------
-    acting : a history, a rotor, or nothing
-    mean : (6,) load at the yaw bearing that acts from the start, in N and N m, or None
-    blade_passing_frequency : in Hz, or None
-    notes, cautions : what was done to the user's numbers, and what looks wrong with them
+    acting : LoadHistory, RotorThrust or None
+        A history, a rotor, or nothing.
+    mean : (6,) array or None, N and N m
+        Load at the yaw bearing that acts from the start, or None.
+    blade_passing_frequency : float or None, Hz
+        Or None.
+    notes, cautions : list of str
+        What was done to the user's numbers, and what looks wrong with them.
     """
 
     acting: LoadHistory | RotorThrust | None = None
@@ -103,7 +107,10 @@ class TowerTop:
 
         Parameters
         ----------
-        found, state : modes about the mean load, and the static state under it
+        found : ModalResult
+            Modes about the mean load.
+        state : StaticResult
+            Static state under the mean load.
         """
         if not isinstance(self.acting, RotorThrust) or self.mean is None:
             return None
@@ -225,7 +232,8 @@ def tower_top(case: Case, turbine: Turbine, analysis: TransientAnalysis) -> Towe
 
     Raises
     ------
-    InputError : a file, or a part of the turbine, that cannot be used
+    InputError
+        A file, or a part of the turbine, that cannot be used.
     """
     load = case.tower_top_load
     if load is None:
@@ -291,7 +299,8 @@ def rotor_of(turbine: Turbine) -> RotorNacelleRNA:
 
     Raises
     ------
-    InputError : they are given as one rigid body
+    InputError
+        They are given as one rigid body.
     """
     if not isinstance(turbine.rna, RotorNacelleRNA):
         raise InputError(

@@ -38,7 +38,8 @@ def summary(tree: xr.DataTree) -> dict[str, Any]:
 
     Parameters
     ----------
-    tree : results of a case, from :func:`offwind_pin.results.reading.open_case`
+    tree : DataTree
+        Results of a case, from :func:`offwind_pin.results.reading.open_case`.
     """
     attributes = tree["case"].attrs
     head = summary_head(attributes)
@@ -69,7 +70,8 @@ def summary_head(attributes: Mapping[Any, Any]) -> dict[str, Any]:
 
     Parameters
     ----------
-    attributes : of the group ``case``
+    attributes : mapping
+        Of the group ``case``.
     """
     wall, simulated = float(attributes["wall_s"]), float(attributes["simulated_s"])
     begun = float(attributes["resumed_at_s"])

@@ -52,7 +52,8 @@ def _check_table(name: str, place: tuple[float, ...], value: tuple[float, ...]) 
 
     Raises
     ------
-    ValueError : they are of different lengths, or the places do not rise
+    ValueError
+        They are of different lengths, or the places do not rise.
     """
     if len(place) != len(value):
         raise ValueError(
@@ -144,12 +145,16 @@ class Hydrodynamics(Definition):
 
     Attributes
     ----------
-    added_mass_coefficient, drag_coefficient : constant, over height, or over the
-        Keulegan-Carpenter number
-    diffraction : ``"none"``, or ``"maccamy_fuchs"`` for the wave's inertia force
-    marine_growth : layers, from the lowest to the highest
-    contents : what is inside below the level
-    buoyancy : whether hydrostatic pressure acts on the walls
+    added_mass_coefficient, drag_coefficient : float or table
+        Constant, over height, or over the Keulegan-Carpenter number.
+    diffraction : {"none", "maccamy_fuchs"}
+        ``"none"``, or ``"maccamy_fuchs"`` for the wave's inertia force.
+    marine_growth : tuple of MarineGrowth
+        Layers, from the lowest to the highest.
+    contents : SealedPile or FloodedPile
+        What is inside below the level.
+    buoyancy : bool
+        Whether hydrostatic pressure acts on the walls.
     """
 
     added_mass_coefficient: Coefficient
@@ -188,7 +193,8 @@ class Hydrodynamics(Definition):
 
         Raises
         ------
-        ValueError : they do not
+        ValueError
+            They do not.
         """
         for layer in self.marine_growth:
             if layer.bottom < mudline or layer.top > top:

@@ -12,6 +12,7 @@ from pydantic import ValidationError
 
 from offwind_pin.base.definition import Definition
 from offwind_pin.base.errors import InputError
+from offwind_pin.base.input_files import is_file
 from offwind_pin.base.validation import input_error
 from offwind_pin.definitions.shipped import shipped_turbines
 from offwind_pin.definitions.turbine import Turbine
@@ -24,11 +25,13 @@ def load_turbine(name_or_path: str | Path) -> Turbine:
 
     Parameters
     ----------
-    name_or_path : a shipped name (``"oc6_phase2"``) or the path of a YAML file
+    name_or_path : str or Path
+        A shipped name (``"oc6_phase2"``) or the path of a YAML file.
 
     Raises
     ------
-    InputError : the name is unknown, or the file cannot be read or understood
+    InputError
+        The name is unknown, or the file cannot be read or understood.
     """
     path = find_definition(name_or_path, shipped_turbines(), "turbine")
     return read_definition(path, Turbine)
@@ -42,7 +45,7 @@ def find_definition(name_or_path: str | Path, shipped: list[str], kind: str) -> 
         with resources.as_file(resources.files("offwind_pin")) as package:
             return Path(package) / folder / f"{text.removeprefix('oc6-')}.yaml"
     path = Path(text)
-    if path.is_file():
+    if is_file(path):
         return path
     near = difflib.get_close_matches(text, shipped, n=1)
     hint = f"Did you mean {near[0]!r}?" if near else "Check the path."
@@ -56,7 +59,8 @@ def read_definition(path: Path, kind: type[Kind]) -> Kind:
 
     Raises
     ------
-    InputError : the file is empty, not YAML, or does not fit the definition
+    InputError
+        The file is empty, not YAML, or does not fit the definition.
     """
     data = _read_yaml(path)
     try:

@@ -18,13 +18,18 @@ class RotorDisc:
 
     Attributes
     ----------
-    rotor : its tables
-    blades : how many
-    radius, overhang, tower_to_shaft : in m; the shaft crosses the tower's axis ``tower_to_shaft``
-        above the yaw bearing
-    tilt : of the shaft in rad, negative where an upwind rotor looks upwards
-    shaft_height : of that crossing above still water level in m
-    tower_height, tower_diameter : stations of the tower that stands behind or before it, in m
+    rotor : Rotor
+        Its tables.
+    blades : int
+        How many.
+    radius, overhang, tower_to_shaft : float, m
+        The shaft crosses the tower's axis ``tower_to_shaft`` above the yaw bearing.
+    tilt : float, rad
+        Of the shaft, negative where an upwind rotor looks upwards.
+    shaft_height : float, m
+        Of that crossing above still water level.
+    tower_height, tower_diameter : tuple of float, m
+        Stations of the tower that stands behind or before it.
     """
 
     rotor: Rotor
@@ -52,7 +57,8 @@ class RotorDisc:
 
         Raises
         ------
-        InputError : the turbine has no table of it
+        InputError
+            The turbine has no table of it.
         """
         table = self.rotor.rotor_speed
         if table is None:
@@ -70,7 +76,8 @@ def rotor_disc(turbine: Turbine) -> RotorDisc:
 
     Raises
     ------
-    InputError : the turbine has no block ``rotor``, or one that does not tell where the rotor is
+    InputError
+        The turbine has no block ``rotor``, or one that does not tell where the rotor is.
     """
     rotor, rna = turbine.rotor, turbine.rna
     if rotor is None:

@@ -12,10 +12,14 @@ class Section:
 
     Attributes
     ----------
-    z : float, m, height above still water level
-    member, material : str, names in the turbine's definition
-    diameter : float, m, of the outside
-    thickness : float, m, of the wall
+    z : float, m
+        Height above still water level.
+    member, material : str
+        Names in the turbine's definition.
+    diameter : float, m
+        Of the outside.
+    thickness : float, m
+        Of the wall.
     """
 
     z: float

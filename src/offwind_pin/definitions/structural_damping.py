@@ -17,7 +17,12 @@ Ratios = Annotated[dict[ModeLabel, Ratio], Field(min_length=1)]
 class _OfASystem(Definition):
     """Ratios that refer to modes of a system.
 
-    foundation, still_water : of that system; by default the run's own
+    Attributes
+    ----------
+    foundation : str or None
+        Of that system; by default the run's own.
+    still_water : bool or None
+        Whether that system is in water; by default as the run is.
     """
 
     foundation: str | None = None
@@ -42,7 +47,11 @@ class StiffnessDamping(_OfASystem):
 class ModalDamping(_OfASystem):
     """Damping ratios of modes, exact for the named ones.
 
-    others : ratio of every other mode up to the cutoff; beyond, damping grows with frequency
+    Attributes
+    ----------
+    others : float
+        Ratio of every other mode up to the cutoff; beyond, damping grows with frequency.
+    cutoff : float, Hz
     """
 
     kind: Literal["modal"] = "modal"

@@ -73,13 +73,16 @@ class DampedAbsorber:
 
     Attributes
     ----------
-    mass_ratio : mass of the damper over that of the mode
-    frequency_ratio : natural frequency of the damper alone over that of the mode without it
-    damping_ratio : of critical of the damper alone, c / (2 sqrt(k m)): the key of that name in a
-        turbine file
-    amplification : of the mode's motion under a harmonic force, over that under a constant one, at
-        the two frequencies at which it does not depend on the damper; its largest value but for
-        some thousandths
+    mass_ratio : float
+        Mass of the damper over that of the mode.
+    frequency_ratio : float
+        Natural frequency of the damper alone over that of the mode without it.
+    damping_ratio : float
+        Of critical of the damper alone, c / (2 sqrt(k m)): the key of that name in a turbine file.
+    amplification : float
+        Of the mode's motion under a harmonic force, over that under a constant one, at the two
+        frequencies at which it does not depend on the damper; its largest value but for some
+        thousandths.
     """
 
     mass_ratio: float
@@ -98,11 +101,13 @@ def den_hartog(mass_ratio: float) -> DampedAbsorber:
 
     Parameters
     ----------
-    mass_ratio : mass of the damper over the modal mass, the shape being one where the damper sits
+    mass_ratio : float
+        Mass of the damper over the modal mass, the shape being one where the damper sits.
 
     Raises
     ------
-    InputError : a ratio that is not above zero
+    InputError
+        A ratio that is not above zero.
     """
     if not 0 < mass_ratio < math.inf:
         raise InputError("mass_ratio", mass_ratio, "a finite number above zero", "Correct it.")

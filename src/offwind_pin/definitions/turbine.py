@@ -67,7 +67,12 @@ class Member(Definition):
     def _stations_rise(self) -> Member:
         heights = [station.z for station in self.stations]
         for lower, upper in itertools.pairwise(heights):
-            if upper <= lower:
+            if upper == lower:
+                raise ValueError(
+                    f"two stations are at z_m = {upper}; stations must rise strictly in z_m: for a "
+                    "step of diameter or wall begin another member there, or remove one of the two"
+                )
+            if upper < lower:
                 raise ValueError(
                     f"stations must rise strictly in z_m, but {upper} follows {lower}; "
                     "sort them from the lowest to the highest"
@@ -345,12 +350,15 @@ class Turbine(Definition):
 
         Parameters
         ----------
-        z : float, m, from the toe to the yaw bearing
-        side : whose section counts where two members of different sections meet
+        z : float, m
+            From the toe to the yaw bearing.
+        side : {"above", "below"}
+            Whose section counts where two members of different sections meet.
 
         Raises
         ------
-        InputError : a height off the structure, or an unknown side
+        InputError
+            A height off the structure, or an unknown side.
         """
         if not self.toe <= z <= self.yaw_bearing:
             raise InputError(

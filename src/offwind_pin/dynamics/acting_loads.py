@@ -25,7 +25,8 @@ def base_excitation_of(
 
     Raises
     ------
-    InputError : the motion is not given at every depth that it is needed at
+    InputError
+        The motion is not given at every depth that it is needed at.
     """
     height = np.concatenate([np.zeros(0), *(load.height for load in loads)])
     if motion is None:
@@ -51,7 +52,8 @@ def all_loads(system: System, loads: Sequence[PointLoad]) -> list[PointLoad]:
 
     Raises
     ------
-    InputError : a load beside the structure, or something that is no load
+    InputError
+        A load beside the structure, or something that is no load.
     """
     for given in loads:
         if not isinstance(given, PointLoad):

@@ -68,7 +68,8 @@ def check_reach(motion: GroundMotion, base: float, mudline: float) -> None:
 
     Raises
     ------
-    InputError : the motion would have to be extrapolated
+    InputError
+        The motion would have to be extrapolated.
     """
     if len(motion.levels) == 1:
         return

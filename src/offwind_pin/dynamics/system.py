@@ -30,12 +30,22 @@ class System:
 
     Attributes
     ----------
-    turbine, foundation, chain : what was built
-    sea : None for a dry structure
-    joint_stiffness, joint_damping : (nv,) of the chain's springs and dampers, zero at the root
-    damping_ratios : achieved ratios of the calibrated modes by label, for the record
-    structural_loads : structural damping that acts between the structure and the inertial frame
-    damping_cautions : sentences about structural damping that differs from what was asked for
+    turbine : Turbine
+        Definition of the structure.
+    foundation : Foundation
+        What supports it.
+    chain : Chain
+        Bodies and joints of the structure.
+    sea : Sea or None
+        None for a dry structure.
+    joint_stiffness, joint_damping : (nv,) array
+        Of the chain's springs and dampers, zero at the root.
+    damping_ratios : dict of str to float
+        Achieved ratios of the named modes by label, for the record.
+    structural_loads : tuple of PointLoad
+        Structural damping that acts between the structure and the inertial frame.
+    damping_cautions : tuple of str
+        Sentences about structural damping that differs from what was asked for.
     """
 
     turbine: Turbine

@@ -27,11 +27,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from offwind_pin.base.errors import InputError
+from offwind_pin.base.input_files import read_text
 from offwind_pin.base.whole_files import write_json
 from offwind_pin.formats.openfast.subdyn_soildyn import symmetric_matrix
 
 Array = NDArray[np.float64]
 
+_LARGEST_FILE = 1_000_000
 _HEIGHTS, _ELEMENTS = 10, 3
 """``NPTS_SOIL`` and ``NREFINE`` of WISDEM."""
 _EXACT = 1e-9
@@ -50,15 +52,21 @@ class WisdemPile:
 
     Attributes
     ----------
-    length : embedded, WISDEM's ``suctionpile_depth``, in m
-    bending : EI in N m2
-    shear : G times the shear area ``section_Asx`` in N; infinite for WISDEM's ``shear: False``
-    axial : EA in N
-    torsional : GJ in N m2
+    length : float, m
+        Embedded, WISDEM's ``suctionpile_depth``.
+    bending : float, N m2
+        EI.
+    shear : float, N
+        G times the shear area ``section_Asx``; infinite for WISDEM's ``shear: False``.
+    axial : float, N
+        EA.
+    torsional : float, N m2
+        GJ.
 
     Raises
     ------
-    InputError : a number that is not positive, or not finite but for the shear stiffness
+    InputError
+        A number that is not positive, or not finite but for the shear stiffness.
     """
 
     length: float
@@ -83,14 +91,17 @@ def write_wisdem(path: Path, stiffness: ArrayLike, pile: WisdemPile, *, note: st
 
     Parameters
     ----------
-    stiffness : (6, 6) at the mudline, order x, y, z, rx, ry, rz, N, m, rad; symmetric, with
-        couplings of sway and rocking in the same plane only; others below a thousandth of the root
-        of their diagonal entries are left out, and the file says how large they are
-    note : one line for the head of the file
+    stiffness : (6, 6) array_like
+        At the mudline, order x, y, z, rx, ry, rz, N, m, rad; symmetric, with couplings of sway and
+        rocking in the same plane only; others below a thousandth of the root of their diagonal
+        entries are left out, and the file says how large they are.
+    note : str
+        One line for the head of the file.
 
     Raises
     ------
-    InputError : another matrix, or one that no such springs give
+    InputError
+        Another matrix, or one that no such springs give.
     """
     matrix = symmetric_matrix(stiffness, "stiffness")
     left_out = _left_out(matrix)
@@ -123,8 +134,9 @@ def read_wisdem(path: Path, pile: WisdemPile) -> Array:
 
     Raises
     ------
-    InputError : a missing file, or one without ten heights from the pile's foot to the mudline and
-        their springs
+    InputError
+        A missing file, or one without ten heights from the pile's foot to the mudline and their
+        springs.
     """
     heights, springs = _read(path)
     if not np.isclose(heights[0], -pile.length, rtol=1e-6) or abs(heights[-1]) > 1e-6 * pile.length:
@@ -259,21 +271,25 @@ def _left_out(matrix: Array) -> float:
 
 
 def _read(path: Path) -> tuple[Array, Array]:
+    text = read_text(path, _LARGEST_FILE)
     try:
-        data = json.loads(path.read_text(encoding="utf-8"))
-        heights = np.asarray(data["z_soil"], dtype=float)
-        springs = np.asarray(data["k_soil"], dtype=float)
-    except FileNotFoundError:
-        raise InputError(str(path), "no such file", "an existing file", "Check the path.") from None
-    except (OSError, ValueError, KeyError, TypeError) as error:
+        data = json.loads(text)
+        heights, springs = np.array(data["z_soil"]), np.array(data["k_soil"])
+        if not {heights.dtype.kind, springs.dtype.kind} <= set("if"):
+            raise TypeError("something else than numbers")
+    except (ValueError, KeyError, TypeError, RecursionError) as error:
         allowed = "a JSON file with numbers in z_soil and k_soil"
         raise InputError(str(path), repr(error), allowed, "Write it with write_wisdem.") from None
     shapes = heights.shape == (_HEIGHTS,) and springs.shape == (_HEIGHTS, 6)
-    if not shapes or np.any(np.diff(heights) <= 0) or not np.all(springs >= 0):
+    if (
+        not shapes
+        or not np.all(np.diff(heights) > 0)
+        or not np.all((springs >= 0) & np.isfinite(springs))
+    ):
         raise InputError(
             str(path),
             f"z_soil {heights.shape} and k_soil {springs.shape}",
             f"{_HEIGHTS} rising heights and {_HEIGHTS} by 6 springs that are not negative",
             "Write it with write_wisdem.",
         )
-    return heights, springs
+    return heights.astype(float), springs.astype(float)

@@ -87,14 +87,19 @@ class PointMotion:
 
     Attributes
     ----------
-    position : (n, 3) in m
-    displacement : (n, 3) from the undeformed position, in m
-    velocity : (n, 3) in m/s
-    axis : (n, 3) unit vectors along the deflected axis, upwards
-    acceleration : (n, 3) in m/s2, at rest unless given
-    turn : (n, 3) rotation of the section, the axial vector of its orientation's skew part (its size
-        is the sine of the angle) in rad; none unless given
-    spin : (n, 3) angular velocity of the section in rad/s, none unless given
+    position : (n, 3) array, m
+    displacement : (n, 3) array, m
+        From the undeformed position.
+    velocity : (n, 3) array, m/s
+    axis : (n, 3) array
+        Unit vectors along the deflected axis, upwards.
+    acceleration : (n, 3) array or None, m/s2
+        At rest unless given.
+    turn : (n, 3) array or None, rad
+        Rotation of the section, the axial vector of its orientation's skew part (its size is the
+        sine of the angle); none unless given.
+    spin : (n, 3) array or None, rad/s
+        Angular velocity of the section, none unless given.
     """
 
     position: Array
@@ -169,10 +174,13 @@ class Channel:
 
     Attributes
     ----------
-    name : in the dataset; what several loads give by one name is summed
-    dims : dimensions after ``time``: none, ``("component",)`` for Fx to Mz, or ``("direction",)``
-        for x, y, z
-    units, long_name : attributes of the channel
+    name : str
+        In the dataset; what several loads give by one name is summed.
+    dims : tuple of str
+        Dimensions after ``time``: none, ``("component",)`` for Fx to Mz, or ``("direction",)`` for
+        x, y, z.
+    units, long_name : str
+        Attributes of the channel.
     """
 
     name: str
@@ -246,7 +254,8 @@ class PointLoad(ABC):
 
         Raises
         ------
-        NoFingerprintError : an attribute that cannot be hashed; the class must then say what counts
+        NoFingerprintError
+            An attribute that cannot be hashed; the class must then say what counts.
         """
         return content_hash(self)
 
@@ -416,8 +425,12 @@ def dissipated_power(load: KernelLoad, blocks: Array, rate: Array) -> float:
 
     Parameters
     ----------
-    blocks : (n, 7, 3, 3) derivatives of forces and moments at its points
-    rate : (n, 6) velocity and spin of its points in m/s and rad/s
+    load : KernelLoad
+        The load.
+    blocks : (n, 7, 3, 3) array
+        Derivatives of forces and moments at its points.
+    rate : (n, 6) array, m/s and rad/s
+        Velocity and spin of its points.
     """
     velocity, spin = rate[:, :3], rate[:, 3:]
     power = -np.einsum("ni,nij,nj", velocity, blocks[:, BY_VELOCITY], velocity)

@@ -68,7 +68,8 @@ class RootRestraint(ABC):
 
         Raises
         ------
-        NoFingerprintError : an attribute that cannot be hashed; the class must then say what counts
+        NoFingerprintError
+            An attribute that cannot be hashed; the class must then say what counts.
         """
         return content_hash(self)
 

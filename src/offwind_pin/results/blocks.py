@@ -65,12 +65,15 @@ class FolderStore:
 
     Parameters
     ----------
-    folder : made if it is not there
-    run : plain data that tell this run from every other
+    folder : Path
+        Made if it is not there.
+    run : dict of str to object
+        Plain data that tell this run from every other.
 
     Raises
     ------
-    InputError : the folder holds another run's blocks, or something else
+    InputError
+        The folder holds another run's blocks, or something else.
     """
 
     def __init__(self, folder: Path, run: dict[str, object]) -> None:

@@ -32,17 +32,28 @@ class HistoryWriter:
 
     Attributes
     ----------
-    mudline : height in m
-    height : (m,) heights of the records in m
-    segments : pairs of heights in m between which equilibrium is checked
-    loads : names of the loads
-    stores : (L,) whether each stores energy rather than works
-    attributes : of the dataset
-    constants : what does not change with time, by name: dimension, values, attributes
-    levels : (D,) heights in m at which the ground's motion is recorded; none without an earthquake
-    dampers : travel in m of each tuned mass damper by its name
-    soil : (n,) heights in m of the nodes of the soil; none where no soil acts along the pile
-    load_channels : of the loads, by name: dimensions after time, name in words, units
+    mudline : float, m
+        Height.
+    height : (m,) array, m
+        Heights of the records.
+    segments : sequence of (float, float), m
+        Pairs of heights between which equilibrium is checked.
+    loads : sequence of str
+        Names of the loads.
+    stores : (L,) bool array
+        Whether each stores energy rather than works.
+    attributes : dict of str to object
+        Of the dataset.
+    constants : mapping of str to (str, array, dict of str to str)
+        What does not change with time, by name: dimension, values, attributes.
+    levels : (D,) array, m
+        Heights at which the ground's motion is recorded; none without an earthquake.
+    dampers : mapping of str to float, m
+        Travel of each tuned mass damper by its name.
+    soil : (n,) array, m
+        Heights of the nodes of the soil; none where no soil acts along the pile.
+    load_channels : mapping of str to (tuple of str, str, str)
+        Of the loads, by name: dimensions after time, name in words, units.
     """
 
     mudline: float

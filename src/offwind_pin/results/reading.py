@@ -18,15 +18,18 @@ def open_results(source: Path | str) -> xr.DataTree:
 
     Parameters
     ----------
-    source : output directory of a run, or the file ``results.nc`` itself
+    source : Path or str
+        Output directory of a run, or the file ``results.nc`` itself.
 
     Returns
     -------
-    xarray.DataTree : close it after use, or use it in a ``with`` statement
+    DataTree
+        Close it after use, or use it in a ``with`` statement.
 
     Raises
     ------
-    InputError : no results found, or a file of another origin
+    InputError
+        No results found, or a file of another origin.
     """
     given = Path(source)
     path = given / FILE if given.is_dir() else given
@@ -50,7 +53,8 @@ def open_case(source: Path | str) -> xr.DataTree:
 
     Raises
     ------
-    InputError : as there; or only the main dataset is present
+    InputError
+        As there; or only the main dataset is present.
     """
     tree = open_results(source)
     if "case" not in tree.children:

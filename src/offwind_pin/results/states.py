@@ -40,13 +40,17 @@ def static_dataset(
     Parameters
     ----------
     height : (m,) array, m
-    displacement, rotation : (m, 3) arrays, m and rad
+    displacement, rotation : (m, 3) array
+        Arrays, m and rad.
     section_load : (m, 6) array, N and N m
     joint_displacement : (nv,) array, m and rad
-    memory : (k,) array, state of soil and foundation
+    memory : (k,) array
+        State of soil and foundation.
     mudline : float, m
-    engine : that evaluated the equations
-    loads : names of the applied loads
+    engine : str
+        That evaluated the equations.
+    loads : sequence of str
+        Names of the applied loads.
     """
     along = ("height", "direction")
     variables = {
@@ -100,15 +104,23 @@ def modal_dataset(
     Parameters
     ----------
     height : (m,) array, m
-    label : n labels
-    frequency_hz, damping_ratio : (n,) arrays, Hz and 1
-    damping_parts : (n, 4) array, 1; of structure, soil, water and everything else
-    damping_asked : (n,) array, 1; NaN for modes that nobody named
-    shape, mass_normalised : (n, m, 6) arrays
-    participation : (n, f) array, 1; of f families of joints
-    damper_share, peak_height_ratio : (n,) arrays, 1
+    label : list of str
+        n labels.
+    frequency_hz, damping_ratio : (n,) array
+        Arrays, Hz and 1.
+    damping_parts : (n, 4) array
+        1; of structure, soil, water and everything else.
+    damping_asked : (n,) array
+        1; NaN for modes that have no ratio in the turbine file.
+    shape, mass_normalised : (n, m, 6) array
+        Arrays.
+    participation : (n, f) array
+        1; of f families of joints.
+    damper_share, peak_height_ratio : (n,) array
+        Arrays, 1.
     vector : (nv, n) array
-    engine : that evaluated the equations
+    engine : str
+        That evaluated the equations.
     """
     along = ("mode", "height", "motion")
     about = {

@@ -34,7 +34,8 @@ def make_tree(root: xr.Dataset, groups: Mapping[str, xr.Dataset]) -> xr.DataTree
     Parameters
     ----------
     root : Dataset
-    groups : Datasets by path, such as ``modes`` or ``static/clamped``, with plain dimensions
+    groups : mapping of str to Dataset
+        Datasets by path, such as ``modes`` or ``static/clamped``, with plain dimensions.
     """
     children = {f"/{name}": prefixed(data, name) for name, data in groups.items()}
     return xr.DataTree.from_dict({"/": root, **children})
@@ -45,7 +46,8 @@ def part(tree: xr.DataTree, name: str) -> xr.Dataset | None:
 
     Parameters
     ----------
-    name : name of a group; the root if it is that part
+    name : str
+        Name of a group; the root if it is that part.
     """
     if _is_root(tree, name):
         return tree.to_dataset(inherit=False)
@@ -57,7 +59,8 @@ def required(tree: xr.DataTree, name: str) -> xr.Dataset:
 
     Raises
     ------
-    InputError : the tree lacks it
+    InputError
+        The tree lacks it.
     """
     found = part(tree, name)
     if found is None:

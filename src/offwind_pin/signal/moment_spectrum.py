@@ -37,12 +37,17 @@ class MomentSpectrum:
 
     Attributes
     ----------
-    frequency : (f,) in Hz
-    density : (f,) one-sided, in (N m)^2/Hz
-    peaks : frequencies of the peaks found, in Hz
-    bands : areas of the bands of the first and the second fore-aft mode
-    marked : frequencies in Hz by name: "wave peak", "3P", "FA1", ...
-    segment : length of Welch's windows in s
+    frequency : (f,) array, Hz
+    density : (f,) array, (N m)^2/Hz
+        One-sided.
+    peaks : tuple of float, Hz
+        Frequencies of the peaks found.
+    bands : tuple of Band
+        Areas of the bands of the first and the second fore-aft mode.
+    marked : mapping of str to float, Hz
+        Frequencies by name: "wave peak", "3P", "FA1", ...
+    segment : float, s
+        Length of Welch's windows.
     """
 
     frequency: Array

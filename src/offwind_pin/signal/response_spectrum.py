@@ -24,10 +24,14 @@ class ResponseSpectrum:
 
     Attributes
     ----------
-    period : (p,) undamped natural periods in s
-    damping_ratio : of all oscillators
-    displacement : largest displacement relative to the base, in m
-    absolute_acceleration : largest acceleration of the mass, in m/s2
+    period : (p,) array, s
+        Undamped natural periods.
+    damping_ratio : float
+        Of all oscillators.
+    displacement : array, m
+        Largest displacement relative to the base.
+    absolute_acceleration : array, m/s2
+        Largest acceleration of the mass.
     """
 
     period: Array
@@ -58,14 +62,18 @@ def response_spectrum(
 
     Parameters
     ----------
-    acceleration : (t,) or (t, c) of the base in m/s2
-    dt : interval of the samples in s
-    period : (p,) in s
-    damping_ratio : share of critical damping
+    acceleration : (t,) or (t, c) array, m/s2
+        Of the base.
+    dt : float, s
+        Interval of the samples.
+    period : (p,) array, s
+    damping_ratio : float
+        Share of critical damping.
 
     Raises
     ------
-    InputError : fewer than two samples, or numbers that are out of range
+    InputError
+        Fewer than two samples, or numbers that are out of range.
     """
     record = np.asarray(acceleration, dtype=float)
     periods = np.atleast_1d(np.asarray(period, dtype=float))

@@ -15,18 +15,23 @@ def power_spectral_density(values: Array, dt: float, segment: float = 200.0) -> 
 
     Parameters
     ----------
-    values : (t,) samples at equal intervals
-    dt : interval in s
-    segment : length of a window in s
+    values : (t,) array
+        Samples at equal intervals.
+    dt : float, s
+        Interval.
+    segment : float, s
+        Length of a window.
 
     Returns
     -------
-    frequency : (f,) in Hz
-    density : (f,) in unit^2/Hz; its integral is the variance
+    frequency : (f,) array, Hz
+    density : (f,) array, unit^2/Hz
+        Its integral is the variance.
 
     Raises
     ------
-    InputError : a segment shorter than two samples or longer than the signal
+    InputError
+        A segment shorter than two samples or longer than the signal.
     """
     from scipy import signal
 
@@ -46,7 +51,8 @@ def band_sum(frequency: Array, density: Array, low: float, high: float) -> float
 
     Raises
     ------
-    InputError : a band beyond the highest frequency of the spectrum
+    InputError
+        A band beyond the highest frequency of the spectrum.
     """
     if high > frequency[-1]:
         allowed = f"at most {frequency[-1]:g} Hz, half the sampling frequency"

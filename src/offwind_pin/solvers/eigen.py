@@ -25,8 +25,10 @@ def natural_modes(stiffness: Array, mass: Array, count: int) -> tuple[Array, Arr
 
     Returns
     -------
-    squares : (count,) omega^2 in rad^2/s^2, rising; negative where the structure is unstable
-    vectors : (n, count), phi' M phi = 1
+    squares : array, rad^2/s^2
+        (count,) omega^2, rising; negative where the structure is unstable.
+    vectors : array
+        (n, count), phi' M phi = 1.
     """
     symmetric = (stiffness + stiffness.T) / 2
     squares, vectors = eigh(symmetric, mass, subset_by_index=(0, count - 1))
@@ -61,7 +63,8 @@ def lowest_modes(pencil: Pencil, size: int, count: int) -> tuple[Array, Array]:
 
     Raises
     ------
-    LinAlgError : K is singular, too far from symmetric, or modes are missed again and again
+    LinAlgError
+        K is singular, too far from symmetric, or modes are missed again and again.
     """
     if _DENSE * count >= size:
         unit = np.eye(size)

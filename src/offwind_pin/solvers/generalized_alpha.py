@@ -55,14 +55,19 @@ class Method(NamedTuple):
 
     Attributes
     ----------
-    step : in s
-    spectral_radius : at infinite frequency, 1 keeps every frequency and 0 damps the highest at once
-    scale : size of the loads that the residual is a balance of
-    relative_tolerance, increment_tolerance : a step has converged when no entry of the residual
-        exceeds the first times the scale, and the correction that it still asks for nowhere the
-        second; the predictor is corrected once at least
-    max_iterations : a step that needs more has failed
-    slow : ratio of successive corrections above which the iteration matrix is rebuilt
+    step : float, s
+    spectral_radius : float
+        At infinite frequency, 1 keeps every frequency and 0 damps the highest at once.
+    scale : float
+        Size of the loads that the residual is a balance of.
+    relative_tolerance, increment_tolerance : float
+        A step has converged when no entry of the residual exceeds the first times the scale, and
+        the correction that it still asks for nowhere the second; the predictor is corrected once at
+        least.
+    max_iterations : int
+        A step that needs more has failed.
+    slow : float
+        Ratio of successive corrections above which the iteration matrix is rebuilt.
     """
 
     step: float
@@ -108,9 +113,10 @@ def advance(
 
     Returns
     -------
-    Number of completed steps; CONVERGED, or the reason why the next one failed; and the largest
-    local error of a displacement, |beta - 1/6| h^2 max|a_new - a|. After a failure ``last`` (n,) is
-    the last finite residual, and the state is that of the last completed step.
+    (int, int, float)
+        Number of completed steps; CONVERGED, or the reason why the next one failed; and the largest
+        local error of a displacement, |beta - 1/6| h^2 max|a_new - a|. After a failure ``last``
+        (n,) is the last finite residual, and the state is that of the last completed step.
     """
     rho, h = method.spectral_radius, method.step
     alpha_m, alpha_f = (2 * rho - 1) / (rho + 1), rho / (rho + 1)

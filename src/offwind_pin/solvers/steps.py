@@ -68,8 +68,10 @@ class AdaptiveStep:
 
     Attributes
     ----------
-    tolerance : largest local error of a joint's displacement, in m or rad
-    smallest, largest : bounds of the step in s
+    tolerance : float, m
+        Largest local error of a joint's displacement, or rad.
+    smallest, largest : float, s
+        Bounds of the step.
     """
 
     tolerance: float = 1e-7

@@ -58,18 +58,29 @@ class Chain:
 
     Attributes
     ----------
-    base, top : heights of the base and of the yaw bearing in m
-    free_root : whether the base moves on three prismatic and three revolute joints
-    boundary : (N + 1,) heights of the element boundaries in m
-    region : N names of the regions that the elements belong to
-    node_joints : joints of a node, see :data:`NODE_JOINTS`
-    joint_name : names of all joints in the order of the configuration vector
-    joint_height : (N,) heights of the nodes in m
-    joint_stiffness : (N, d) stiffness of each node's joints, in N m/rad of the revolute and in N/m
-        of the prismatic ones
-    body : N + 1 rigid bodies, heights of their centres counted as z
-    rna : rotor-nacelle assembly, fixed to the last body; offsets from the yaw bearing
-    tuned_masses : tuned mass dampers in the order of their joints, which come last
+    base, top : float, m
+        Heights of the base and of the yaw bearing.
+    free_root : bool
+        Whether the base moves on three prismatic and three revolute joints.
+    boundary : (N + 1,) array, m
+        Heights of the element boundaries.
+    region : tuple of str
+        N names of the regions that the elements belong to.
+    node_joints : tuple of str
+        Joints of a node, see :data:`NODE_JOINTS`.
+    joint_name : tuple of str
+        Names of all joints in the order of the configuration vector.
+    joint_height : (N,) array, m
+        Heights of the nodes.
+    joint_stiffness : (N, d) array
+        Stiffness of each node's joints, in N m/rad of the revolute and in N/m of the prismatic
+        ones.
+    body : tuple of AxialBody
+        N + 1 rigid bodies, heights of their centres counted as z.
+    rna : RigidBody
+        Rotor-nacelle assembly, fixed to the last body; offsets from the yaw bearing.
+    tuned_masses : tuple of TunedMass
+        Tuned mass dampers in the order of their joints, which come last.
     """
 
     base: float
@@ -158,17 +169,23 @@ def build_chain(
 
     Parameters
     ----------
-    base : height of the lowest point in m: the mudline, or the pile toe
-    free_root : put six joints below the first body, to be held by a foundation
-    elements : total number, number by region (``{"tower": 30}``), or None for the default
-    stiffness : ``"flexibility"`` takes 1 / integral(dz / EI) over the element; ``"midpoint"`` the
-        paper's EI / l at mid-height (Rahman et al., MECC 2025, Eq. 3)
-    element : ``"euler_bernoulli"`` is the paper's, of three revolute joints a node;
-        ``"timoshenko"`` has two prismatic joints besides, which shear
+    base : float, m
+        Height of the lowest point: the mudline, or the pile toe.
+    free_root : bool
+        Put six joints below the first body, to be held by a foundation.
+    elements : int, dict of str to int, or None
+        Total number, number by region (``{"tower": 30}``), or None for the default.
+    stiffness : {"flexibility", "midpoint"}
+        ``"flexibility"`` takes 1 / integral(dz / EI) over the element; ``"midpoint"`` the paper's
+        EI / l at mid-height (Rahman et al., MECC 2025, Eq. 3).
+    element : {"euler_bernoulli", "timoshenko"}
+        ``"euler_bernoulli"`` is the paper's, of three revolute joints a node; ``"timoshenko"`` has
+        two prismatic joints besides, which shear.
 
     Raises
     ------
-    InputError : an element number that cannot be met, or a region that is not there
+    InputError
+        An element number that cannot be met, or a region that is not there.
     """
     for name, value, kinds in (("stiffness", stiffness, Stiffness), ("element", element, Element)):
         if value not in get_args(kinds):

@@ -88,8 +88,10 @@ def loft(sections: Array, *, capped: bool = True) -> Mesh:
 
     Parameters
     ----------
-    sections : (s, n, 3) points of each loop, anticlockwise seen from the last loop
-    capped : close the first and the last loop with a fan of triangles
+    sections : (s, n, 3) array
+        Points of each loop, anticlockwise seen from the last loop.
+    capped : bool
+        Close the first and the last loop with a fan of triangles.
     """
     count, around = sections.shape[:2]
     low = np.arange((count - 1) * around).reshape(count - 1, around)

@@ -24,7 +24,8 @@ def rna_meshes(rna: RigidBodyRNA | RotorNacelleRNA, tower_diameter: float) -> di
 
     Parameters
     ----------
-    tower_diameter : outer diameter in m at the yaw bearing, which the nacelle's breadth follows
+    tower_diameter : float, m
+        Outer diameter at the yaw bearing, which the nacelle's breadth follows.
     """
     breadth = 1.35 * tower_diameter
     if isinstance(rna, RigidBodyRNA):

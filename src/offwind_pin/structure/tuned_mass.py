@@ -21,13 +21,19 @@ class TunedMass:
 
     Attributes
     ----------
-    name : of the damper
-    height : undeformed, in m
-    body : index of the body that carries it
-    mass : in kg
-    joints : ``px``, ``py`` or both, along x and y of the carrier
-    stiffness, damping : of each joint's spring in N/m and damper in N s/m
-    travel : distance in m that there is room for, or infinite
+    name : str
+        Of the damper.
+    height : float, m
+        Undeformed.
+    body : int
+        Index of the body that carries it.
+    mass : float, kg
+    joints : tuple of str
+        ``px``, ``py`` or both, along x and y of the carrier.
+    stiffness, damping : float
+        Of each joint's spring in N/m and damper in N s/m.
+    travel : float, m
+        Distance that there is room for, or infinite.
     """
 
     name: str

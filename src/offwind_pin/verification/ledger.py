@@ -39,15 +39,24 @@ class Row(Definition):
 
     Attributes
     ----------
-    id : short and unique
-    group : heading it stands under
-    quantity, unit : what is compared
-    check : module of ``verification/checks`` and function in it, with its arguments ``given``
-    reference : published number; None where the check computes the reference as well
-    source : where the reference comes from (paper, equation, program)
-    tolerance : largest distance that passes, of a kind: relative to the reference, or absolute
-    remark : what a reader must know to judge it
-    needs : a program that must be installed, or None
+    id : str
+        Short and unique.
+    group : str
+        Heading it stands under.
+    quantity, unit : str
+        What is compared.
+    check : str
+        Module of ``verification/checks`` and function in it, with its arguments ``given``.
+    reference : float or None
+        Published number; None where the check computes the reference as well.
+    source : str
+        Where the reference comes from (paper, equation, program).
+    tolerance : float
+        Largest distance that passes, of a kind: relative to the reference, or absolute.
+    remark : str or None
+        What a reader must know to judge it.
+    needs : str or None
+        A program that must be installed, or None.
     """
 
     id: str
@@ -84,10 +93,14 @@ class Outcome:
 
     Attributes
     ----------
-    value, reference : what was found, and what it is held to; None if not run
-    status : whether the distance is within the tolerance
-    reason : why it was not run, or how it failed to compute
-    wall : time taken in s
+    value, reference : float or None
+        What was found, and what it is held to; None if not run.
+    status : {"pass", "fail", "not run"}
+        Whether the distance is within the tolerance.
+    reason : str or None
+        Why it was not run, or how it failed to compute.
+    wall : float, s
+        Time taken.
     """
 
     row: Row
@@ -147,7 +160,8 @@ def choose(pattern: str | None) -> tuple[Row, ...]:
 
     Raises
     ------
-    InputError : there is none
+    InputError
+        There is none.
     """
     rows = read_ledger()
     if pattern is None:

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from helpers.openfast_files import UNITS, YAW_BEARING, some_load, write_out, write_outb
-from numpy.testing import assert_allclose
+from numpy.testing import assert_allclose, assert_array_equal
 
 import offwind_pin as ow
 from offwind_pin.definitions.rotor_nacelle import lump_rna, rotor_apex
@@ -137,8 +137,9 @@ def test_truncated_anywhere(tmp_path: Path, kind: int) -> None:
         (10, struct.pack("<d", float("nan")), "time"),
         (18, struct.pack("<d", -0.1), "step of the time"),
         (18, struct.pack("<d", 0.0), "step of the time"),
-        (26, struct.pack("<f", 0.0), "slope"),
-        (26, struct.pack("<f", float("inf")), "slope"),
+        (26, struct.pack("<f", 0.0), "YawBrFxp.*slope"),
+        (26, struct.pack("<f", float("inf")), "YawBrFxp.*slope"),
+        (50, struct.pack("<f", float("nan")), "YawBrFxp.*offset"),
         (74, struct.pack("<i", -1), "description"),
         (74, struct.pack("<i", 2**31 - 1), "description"),
         (100, b"\x80", "names"),
@@ -150,7 +151,7 @@ def test_header_fields_are_checked(tmp_path: Path, place: int, raw: bytes, told:
     path, whole = binary(tmp_path)
     path.write_bytes(whole[:place] + raw + whole[place + len(raw) :])
     with pytest.raises(ow.InputError, match=told):
-        read_openfast_output(path)
+        from_channels(read_openfast_output(path), DEFAULT)
 
 
 def test_many_steps_are_not_reserved(tmp_path: Path) -> None:
@@ -161,12 +162,94 @@ def test_many_steps_are_not_reserved(tmp_path: Path) -> None:
         read_openfast_output(path)
 
 
-def test_too_long_a_file(tmp_path: Path) -> None:
-    """Bytes behind the last value do not belong to this format."""
-    path, whole = binary(tmp_path)
-    path.write_bytes(whole + b"\0\0")
-    with pytest.raises(ow.InputError, match="2 bytes more"):
+@pytest.mark.parametrize("kind", [1, 2, 3, 4])
+def test_bytes_of_a_longer_file(
+    tmp_path: Path, kind: int, caplog: pytest.LogCaptureFixture
+) -> None:
+    """A complete file that was written over a longer one is read as without the rest of that."""
+    path, whole = binary(tmp_path, kind)
+    alone = from_channels(read_openfast_output(path), DEFAULT)
+    assert not caplog.records
+    path.write_bytes(whole + whole[:1001])
+    assert_array_equal(from_channels(read_openfast_output(path), DEFAULT).load, alone.load)
+    assert "1001 bytes" in caplog.text
+
+
+@pytest.mark.parametrize("spoilt", ["nan", "********", "-Infinity", "1.#QNAN", "4_0"])
+def test_spoilt_channel_of_a_text_file(tmp_path: Path, spoilt: str) -> None:
+    """What is no number matters in a channel that is asked for, and in the time, alone."""
+    path = tmp_path / "run.out"
+    write_out(
+        path,
+        TIME,
+        [*YAW_BEARING, "Other"],
+        [*UNITS, "(kN)"],
+        np.column_stack([some_load(TIME), TIME]),
+    )
+    text = path.read_text()
+    lines = text.splitlines()
+    cells = lines[20].split("\t")
+    lines[20] = "\t".join([*cells[:-1], spoilt])
+    path.write_text("\n".join(lines) + "\n")
+    output = read_openfast_output(path)
+    assert_allclose(
+        from_channels(output, DEFAULT).load, 1e3 * some_load(TIME), rtol=1e-8, atol=1e-3
+    )
+    with pytest.raises(ow.InputError, match="Other, line 21"):
+        output.channel("Other", FORCE)
+    lines[20] = "\t".join([spoilt, *cells[1:]])
+    path.write_text("\n".join(lines) + "\n")
+    with pytest.raises(ow.InputError, match="line 21, column 1"):
         read_openfast_output(path)
+
+
+def test_exponents_of_three_digits(tmp_path: Path) -> None:
+    """Fortran leaves their letter out."""
+    path = tmp_path / "run.out"
+    write_out(path, TIME, ["Fx"], ["(N)"], np.full((len(TIME), 1), 2.0))
+    path.write_text(path.read_text().replace("2.000000000E+00", "2.000000000-101", 1))
+    values = read_openfast_output(path).channel("Fx", FORCE)
+    assert values[0] == 2e-101
+    assert np.all(values[1:] == 2.0)
+
+
+@pytest.mark.parametrize("kind", [1, 2, 4])
+def test_bad_scaling_of_another_channel(tmp_path: Path, kind: int) -> None:
+    """A slope of 0 spoils its own channel alone."""
+    path = tmp_path / "run.outb"
+    names, units = ["Other", *YAW_BEARING], ["(kN)", *UNITS]
+    left = write_outb(path, kind, TIME, names, units, np.column_stack([TIME, some_load(TIME)]))
+    whole = bytearray(path.read_bytes())
+    at = 28 if kind == 4 else 26
+    assert struct.unpack("<f", whole[at : at + 4])[0] != 0
+    whole[at : at + 4] = struct.pack("<f", 0.0)
+    path.write_bytes(bytes(whole))
+    output = read_openfast_output(path)
+    load = from_channels(output, DEFAULT).load
+    assert_allclose(load, left[:, 1:] * IN_SI, rtol=1e-12, atol=1e-6)
+    with pytest.raises(ow.InputError, match=r"Other.*slope of 0"):
+        output.channel("Other", FORCE)
+
+
+def test_channels_of_one_name(tmp_path: Path) -> None:
+    """Neither of two is taken in silence; others can be used."""
+    path = tmp_path / "run.out"
+    data = np.column_stack([TIME, 2 * TIME, 3 * TIME])
+    write_out(path, TIME, ["Fx", "Fy", "FX"], ["(N)"] * 3, data)
+    output = read_openfast_output(path)
+    with pytest.raises(ow.InputError, match="Fx: got 2 of that name, columns 2, 4"):
+        output.channel("Fx", FORCE)
+    assert_allclose(output.channel("Fy", FORCE), 2 * TIME)
+
+
+def test_closing_line(tmp_path: Path) -> None:
+    """Modules that write a file of their own end it with a line of text."""
+    path = tmp_path / "run.out"
+    write_out(path, TIME, YAW_BEARING, UNITS, some_load(TIME))
+    alone = read_openfast_output(path).packed
+    with path.open("a") as file:
+        file.write("\nThis output file was closed on 03-Feb-2023 at 10:11:12.\n")
+    assert_array_equal(read_openfast_output(path).packed, alone)
 
 
 @pytest.mark.parametrize(

@@ -249,6 +249,63 @@ def test_at2(tmp_path: Path, head: str) -> None:
     assert acceleration == pytest.approx(9.80665 * values, rel=1e-6)
 
 
+AT2_HEADS = {
+    "lower case": "NPTS= {count}, dt= {step}, sec",
+    "no blanks": "NPTS={count},DT={step}SEC",
+    "no comma": "NPTS=  {count}   DT=   {step} SEC",
+    "comma behind": "NPTS=   {count}, DT=   {step} SEC,",
+    "interval first": "DT= {step} SEC, NPTS= {count}",
+    "colons": "Npts: {count} Dt: {step} s",
+    "numbers first": "  {count}    {step}    NPTS, DT",
+    "numbers first, lower case": "{count} {step} npts,dt",
+}
+
+
+@pytest.mark.parametrize("head", AT2_HEADS)
+def test_at2_headers(tmp_path: Path, head: str) -> None:
+    """Spellings of the header's last line."""
+    whole = "\n".join([*NEW_HEAD.splitlines()[:3], AT2_HEADS[head]]) + "\n"
+    values = np.linspace(-0.2, 0.3, 13)
+    step, acceleration, _ = read_at2(at2(tmp_path / "a.AT2", values, whole))
+    assert (step, len(acceleration)) == (0.005, 13)
+
+
+AT2_UNITS = {"G": 9.80665, "g": 9.80665, "G'S": 9.80665, "g's": 9.80665, "(g)": 9.80665} | {
+    "cm/s2": 0.01,
+    "CM/SEC/SEC": 0.01,
+    "cm/sec**2": 0.01,
+    "CM/S^2": 0.01,
+    "cm/s/s": 0.01,
+    "gal": 0.01,
+    "Gals": 0.01,
+    "m/s2": 1.0,
+    "M/SEC2": 1.0,
+    "mm/s2": 1e-3,
+    "in/s2": 0.0254,
+    "IN/SEC/SEC": 0.0254,
+    "ft/s2": 0.3048,
+}
+
+
+@pytest.mark.parametrize("unit", AT2_UNITS)
+def test_at2_units(tmp_path: Path, unit: str) -> None:
+    """Every unit in any case is read as itself, and none as g in silence."""
+    head = NEW_HEAD.replace("UNITS OF", "units of") if unit.islower() else NEW_HEAD
+    _, acceleration, _ = read_at2(at2(tmp_path / "a.AT2", np.full(4, 0.5), head, unit=unit))
+    assert acceleration == pytest.approx(0.5 * AT2_UNITS[unit], rel=1e-12)
+
+
+def test_at2_closing_line(tmp_path: Path) -> None:
+    """Text behind the last sample is no sample; numbers there are too many."""
+    path = at2(tmp_path / "a.AT2", np.full(7, 0.1))
+    whole = path.read_text()
+    path.write_text(whole + "\n-- end of record 7 --\n")
+    assert len(read_at2(path)[1]) == 7
+    path.write_text(whole + "0.1\n")
+    with pytest.raises(ow.InputError, match="8 samples, 7"):
+        read_at2(path)
+
+
 def test_at2_components_of_different_length(tmp_path: Path) -> None:
     """The shorter one is followed by zeros."""
     files = {
@@ -287,6 +344,32 @@ FILE_FAULTS: dict[str, tuple[Callable[[Path], object], str]] = {
     "no axis": (lambda p: read_columns(p / "a", "g", ()), "one to three"),
     "no header": (lambda p: read_at2(columns(p / "a", np.zeros((9, 2)))), "NPTS and DT"),
     "velocity": (lambda p: read_at2(at2(p / "a", np.zeros(9), unit="CM/SEC")), "CM/SEC"),
+    "no unit": (
+        lambda p: read_at2(at2(p / "a", np.zeros(9), NEW_HEAD.replace("IN UNITS OF", "in"))),
+        "no unit.*G",
+    ),
+    "unknown unit": (
+        lambda p: read_at2(at2(p / "a", np.zeros(9), unit="furlongs")),
+        "furlongs.*IN/S2",
+    ),
+    "ms": (
+        lambda p: read_at2(at2(p / "a", np.zeros(9), NEW_HEAD.replace("SEC", "MSEC"))),
+        "DT in MSEC",
+    ),
+    "word among samples": (
+        lambda p: read_at2(
+            columns(
+                p / "a", np.zeros((1, 2)), NEW_HEAD.format(unit="G", count=2, step=".1") + "x\n"
+            )
+        ),
+        "line 5, column 1",
+    ),
+    "times in ms": (
+        lambda p: read_columns(
+            columns(p / "a", np.column_stack([5.0 * np.arange(30), np.zeros(30)])), "g", ("x",)
+        ),
+        "in ms",
+    ),
     "truncated": (lambda p: read_at2(at2(p / "a", np.zeros(9), count=12)), "9 samples, 12"),
     "zero step": (lambda p: read_at2(at2(p / "a", np.zeros(9), step="0.0")), "positive interval"),
     "steps": (

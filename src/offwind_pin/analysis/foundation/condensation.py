@@ -43,12 +43,17 @@ class Condensation:
 
     Attributes
     ----------
-    kind : ``"tangent"`` or ``"secant"``
-    height : of the mudline in m
-    stiffness : (6, 6) as computed
-    load : (6,) that the structure above exerts in the state, in N and N m
-    displacement : (6,) of the axis there in m and rad, from where the pile's own weight leaves it;
-        the secant stiffness times it is the load, but for products of displacements
+    kind : {"tangent", "secant"}
+        ``"tangent"`` or ``"secant"``.
+    height : float, m
+        Of the mudline.
+    stiffness : (6, 6) array
+        As computed.
+    load : (6,) array, N and N m
+        That the structure above exerts in the state.
+    displacement : (6,) array, m and rad
+        Of the axis there, from where the pile's own weight leaves it; the secant stiffness times it
+        is the load, but for products of displacements.
     """
 
     kind: CondensedStiffness
@@ -93,15 +98,19 @@ def condense(
 
     Parameters
     ----------
-    system : a structure on distributed springs
-    about : a static state of it
-    stiffness : ``"tangent"`` for small motions about the state, as modes and time histories make
-        them; ``"secant"`` with each soil spring replaced by a linear one of force over
-        displacement in the state, which takes the unloaded pile to that state in one step
+    system : System
+        A structure on distributed springs.
+    about : StaticResult
+        A static state of it.
+    stiffness : {"tangent", "secant"}
+        ``"tangent"`` for small motions about the state, as modes and time histories make them;
+        ``"secant"`` with each soil spring replaced by a linear one of force over displacement in
+        the state, which takes the unloaded pile to that state in one step.
 
     Raises
     ------
-    InputError : a system without a pile, or a state of another system
+    InputError
+        A system without a pile, or a state of another system.
     """
     if stiffness not in get_args(CondensedStiffness):
         allowed = ", ".join(get_args(CondensedStiffness))
@@ -150,9 +159,12 @@ class SecantSprings(PointLoad):
 
     Attributes
     ----------
-    height : (n,) of the nodes in m
-    stiffness : (n, 3) along x, y and z in N/m
-    rotational : (n, 3) about x, y and z in N m/rad
+    height : (n,) array, m
+        Of the nodes.
+    stiffness : (n, 3) array, N/m
+        Along x, y and z.
+    rotational : (n, 3) array, N m/rad
+        About x, y and z.
     """
 
     height: Array

@@ -49,7 +49,8 @@ def apparent_fixity(turbine: Turbine) -> Foundation:
 
     Raises
     ------
-    InputError : no stiffness to stand for, one that differs between planes, or none such cantilever
+    InputError
+        No stiffness to stand for, one that differs between planes, or none such cantilever.
     """
     choice = turbine.soil.apparent_fixity or ApparentFixity()
     stiffness = mudline_stiffness(turbine, choice.stiffness_from)
@@ -103,12 +104,15 @@ def equivalent_cantilever(stiffness: Array, arm: float) -> tuple[float, float]:
 
     Parameters
     ----------
-    stiffness : (6, 6) at the mudline in N, m, rad
-    arm : of the load above the mudline in m
+    stiffness : (6, 6) array, N, m, rad
+        At the mudline.
+    arm : float, m
+        Of the load above the mudline.
 
     Raises
     ------
-    InputError : planes of different stiffness, or a 6x6 that no cantilever stands for
+    InputError
+        Planes of different stiffness, or a 6x6 that no cantilever stands for.
     """
     check_planes(stiffness)
     flexibility = np.linalg.inv(stiffness[np.ix_([0, 4], [0, 4])])
@@ -131,8 +135,10 @@ def macro_element(turbine: Turbine) -> Foundation:
 
     Raises
     ------
-    InputError : nothing to take the loading or the 6x6 from, or parts that do not fit
-    SolverError : the distributed springs gave way before the pushover's end
+    InputError
+        Nothing to take the loading or the 6x6 from, or parts that do not fit.
+    SolverError
+        The distributed springs gave way before the pushover's end.
     """
     calibration = turbine.soil.macro_element or MacroElementCalibration()
     arm = _arm(turbine, calibration.load_arm)
@@ -220,7 +226,7 @@ def _surrogate(turbine: Turbine, source: StiffnessSource | None) -> str | None:
 
 def _read_path(file: Path) -> tuple[Array, Array, Array]:
     """Load in N, displacement in m and rotation in rad of a loading, without its start."""
-    rows = np.array([row for _, row in read_numbers(file, _COLUMNS)])
+    rows = read_numbers(file, _COLUMNS).values
     loaded = rows[np.any(rows != 0, axis=1)]
     if len(loaded) == 0:
         raise InputError(

@@ -31,20 +31,26 @@ def equivalent_damping(
 
     Parameters
     ----------
-    springs : of a foundation, :class:`SoilSprings` or :class:`HystereticSprings`
-    amplitudes : (a,) Y in m, or in rad for springs against rotation, above zero
-    frequencies : (f,) in Hz, above zero
-    node : number of the spring among the load's
+    springs : SoilSprings
+        Of a foundation, :class:`SoilSprings` or :class:`HystereticSprings`.
+    amplitudes : (a,) array_like
+        Y in m, or in rad for springs against rotation, above zero.
+    frequencies : (f,) array_like, Hz
+        Above zero.
+    node : int
+        Number of the spring among the load's.
 
     Returns
     -------
-    Dataset over ``amplitude`` and ``frequency`` with ``damping_ratio`` and ``energy_per_cycle``
-    (J), and over ``amplitude`` with ``secant_stiffness`` (N/m, or N m/rad)
+    Dataset
+        Over ``amplitude`` and ``frequency`` with ``damping_ratio`` and ``energy_per_cycle``
+        (J), and over ``amplitude`` with ``secant_stiffness`` (N/m, or N m/rad).
 
     Raises
     ------
-    InputError : amplitudes or frequencies that are not above zero, no such node, or one at which
-        nothing resists
+    InputError
+        Amplitudes or frequencies that are not above zero, no such node, or one at which nothing
+        resists.
     """
     amplitude, frequency = (
         _above_zero("amplitudes", amplitudes),

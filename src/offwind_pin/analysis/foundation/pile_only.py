@@ -32,11 +32,13 @@ def pile_only(turbine: Turbine, stick_up: float = 0.0) -> Turbine:
 
     Parameters
     ----------
-    stick_up : length in m of the structure above the mudline that stays, for loads that act there
+    stick_up : float, m
+        Length of the structure above the mudline that stays, for loads that act there.
 
     Raises
     ------
-    InputError : no pile below the mudline, or a stick-up that ends off the structure
+    InputError
+        No pile below the mudline, or a stick-up that ends off the structure.
     """
     mudline = turbine.site.mudline
     _check_pile(turbine)
@@ -64,11 +66,13 @@ def wisdem_pile(turbine: Turbine, *, shear: bool = True) -> WisdemPile:
 
     Parameters
     ----------
-    shear : WISDEM's Frame3DD option of that name; without it the pile is stiff in shear
+    shear : bool
+        WISDEM's Frame3DD option of that name; without it the pile is stiff in shear.
 
     Raises
     ------
-    InputError : no pile below the mudline, or one whose section or material changes there
+    InputError
+        No pile below the mudline, or one whose section or material changes there.
     """
     mudline = turbine.site.mudline
     _check_pile(turbine)
@@ -127,7 +131,8 @@ def pile_part(system: System) -> System:
 
     Raises
     ------
-    InputError : a system whose chain ends at the mudline
+    InputError
+        A system whose chain ends at the mudline.
     """
     chain, mudline = system.chain, system.turbine.site.mudline
     elements = chain.region.count("pile")

@@ -44,11 +44,16 @@ class Pushover:
 
     Attributes
     ----------
-    arm : height of the load above the mudline in m
-    load : (n,) horizontal load H in N, the first zero
-    moment : (n,) H times the arm in N m
-    displacement : (n,) of the axis at the mudline along the load, in m
-    rotation : (n,) of the axis there, forwards, in rad
+    arm : float, m
+        Height of the load above the mudline.
+    load : (n,) array, N
+        Horizontal load H, the first zero.
+    moment : (n,) array, N m
+        H times the arm.
+    displacement : (n,) array, m
+        Of the axis at the mudline along the load.
+    rotation : (n,) array, rad
+        Of the axis there, forwards.
     """
 
     arm: float
@@ -78,18 +83,28 @@ def pushover(
 
     Parameters
     ----------
-    arm : height in m above the mudline at which the load acts
-    until_displacement : mudline displacement in m at which to stop; by default, where no load is
-        given, a tenth of the diameter there
-    until_load : horizontal load in N at which to stop, instead
-    displacements : (n,) of the mudline in m, rising, at which to find the load, instead
-    points : number of states after the unloaded one
-    elements, element : as for :func:`build`, of the pile alone
+    arm : float, m
+        Height above the mudline at which the load acts.
+    until_displacement : float, m, optional
+        Mudline displacement at which to stop; by default, where no load is given, a tenth of the
+        diameter there.
+    until_load : float, N, optional
+        Horizontal load at which to stop, instead.
+    displacements : (n,) array, m, optional
+        Of the mudline, rising, at which to find the load, instead.
+    points : int
+        Number of states after the unloaded one.
+    elements : int, dict of str to int, or None
+        As for :func:`build`, of the pile alone.
+    element : {"euler_bernoulli", "timoshenko"}
+        As for :func:`build`.
 
     Raises
     ------
-    InputError : an argument that cannot be used, or a turbine without a pile or its soil
-    SolverError : no equilibrium at a load; its ``results`` hold the :class:`Pushover` so far
+    InputError
+        An argument that cannot be used, or a turbine without a pile or its soil.
+    SolverError
+        No equilibrium at a load; its ``results`` hold the :class:`Pushover` so far.
     """
     ends = {
         "until_displacement": until_displacement,

@@ -23,10 +23,14 @@ class FoundationKind(ABC):
 
     Attributes
     ----------
-    name : str, in case files and commands
-    description : str, in tables, figures and reports
-    preposition : str, between a structure and the description in a sentence
-    lower_end : str, what the lower end of a structure is that reaches below the mudline
+    name : str
+        In case files and commands.
+    description : str
+        In tables, figures and reports.
+    preposition : str
+        Between a structure and the description in a sentence.
+    lower_end : str
+        What the lower end of a structure is that reaches below the mudline.
     """
 
     name: ClassVar[str]
@@ -48,7 +52,8 @@ class FoundationKind(ABC):
 
         Raises
         ------
-        InputError : the turbine lacks what the foundation needs
+        InputError
+            The turbine lacks what the foundation needs.
         """
 
     def is_described(self, turbine: Turbine) -> bool:
@@ -146,7 +151,8 @@ def register_foundation(kind: FoundationKind) -> None:
 
     Raises
     ------
-    InputError : a kind of another class has the name
+    InputError
+        A kind of another class has the name.
     """
     known = FOUNDATIONS.get(kind.name)
     if known is not None and type(known) is not type(kind):
@@ -161,7 +167,8 @@ def make_foundation(turbine: Turbine, kind: str | Foundation) -> Foundation:
 
     Raises
     ------
-    InputError : no foundation of that name, or the turbine lacks what it needs
+    InputError
+        No foundation of that name, or the turbine lacks what it needs.
     """
     from offwind_pin.loads.soil.foundation import Foundation
 

@@ -20,7 +20,8 @@ def number_at(definition: BaseModel, path: str) -> float:
 
     Raises
     ------
-    InputError : a step that is not there, with the nearest that is; or something else than a number
+    InputError
+        A step that is not there, with the nearest that is; or something else than a number.
     """
     node: Any = definition
     steps = path.split(".")
@@ -38,7 +39,8 @@ def with_number(definition: Model, path: str, value: float) -> Model:
 
     Raises
     ------
-    InputError : a step that is not there, or a number that the definition does not allow
+    InputError
+        A step that is not there, or a number that the definition does not allow.
     """
     try:
         return _replaced(definition, path.split("."), value, path, 0)

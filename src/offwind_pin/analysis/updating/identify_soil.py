@@ -120,18 +120,30 @@ class SoilIdentification:
 
     Attributes
     ----------
-    turbine : the definition with the numbers found
-    parameters, targets : what became of each, in the order given
-    jacobian : (m, p) distances of all targets by the parameters' shares of their ranges
-    sensitivity : (m, p) relative change of each response per relative change of each parameter
-    covariance : (p, p) of the shares, of the determined combinations only
-    singular_values : (p,) of the Jacobian: one over the standard error of a combination, in shares
-    combinations : (p, p) rows are the combinations of shares that belong to them
-    chi_square : sum of squared distances
-    degrees_of_freedom : responses less determined combinations
-    probability : of a larger chi-square by chance; NaN without degrees of freedom
-    evaluations : models solved
-    verdict : all of it in words
+    turbine : Turbine
+        The definition with the numbers found.
+    parameters, targets : tuple of FoundParameter
+        What became of each, in the order given.
+    jacobian : (m, p) array
+        Distances of all targets by the parameters' shares of their ranges.
+    sensitivity : (m, p) array
+        Relative change of each response per relative change of each parameter.
+    covariance : (p, p) array
+        Of the shares, of the determined combinations only.
+    singular_values : (p,) array
+        Of the Jacobian: one over the standard error of a combination, in shares.
+    combinations : (p, p) array
+        Rows are the combinations of shares that belong to them.
+    chi_square : float
+        Sum of squared distances.
+    degrees_of_freedom : int
+        Responses less determined combinations.
+    probability : float
+        Of a larger chi-square by chance; NaN without degrees of freedom.
+    evaluations : int
+        Models solved.
+    verdict : str
+        All of it in words.
     """
 
     turbine: Turbine
@@ -183,17 +195,30 @@ def identify_soil(
 
     Parameters
     ----------
-    targets : :class:`FrequencyTarget`, :class:`DeflectionTarget`, :class:`ShapeTarget`
-    parameters : what to find; the rest of the definition stays
-    foundation, sea, element, elements : the model, as for :func:`build`
-    starts : searches, of which the best is kept: the first from where the parameters start, further
-        ones from points spread over the ranges (Halton's sequence), against local minima
-    progress : called with the number of models solved and half the sum of squares after each
+    targets : sequence of Target
+        :class:`FrequencyTarget`, :class:`DeflectionTarget`, :class:`ShapeTarget`.
+    parameters : sequence of Parameter
+        What to find; the rest of the definition stays.
+    foundation : str
+        As for :func:`build`.
+    sea : Sea, optional
+        As for :func:`build`.
+    element : {"euler_bernoulli", "timoshenko"}
+        As for :func:`build`.
+    elements : int, dict of str to int, or None
+        As for :func:`build`.
+    starts : int
+        Searches, of which the best is kept: the first from where the parameters start, further ones
+        from points spread over the ranges (Halton's sequence), against local minima.
+    progress : callable, optional
+        Called with the number of models solved and half the sum of squares after each.
 
     Raises
     ------
-    InputError : nothing to fit, a path that leads nowhere, a number that the definition forbids
-    SolverError : a model without equilibrium, as of a soil too weak for its structure
+    InputError
+        Nothing to fit, a path that leads nowhere, a number that the definition forbids.
+    SolverError
+        A model without equilibrium, as of a soil too weak for its structure.
     """
     if not targets or not parameters:
         given = f"{len(targets)} targets and {len(parameters)} parameters"

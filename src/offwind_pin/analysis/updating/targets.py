@@ -118,10 +118,13 @@ class DeflectionTarget:
 
     Attributes
     ----------
-    value, uncertainty : in m; with ``over_clamped`` the relative increase over the structure that
-        is clamped at the mudline, 0.143 for 14.3 %
-    height : of the point of the axis in m; the yaw bearing by default
-    tower_top_load : Fx, Fy, Fz, Mx, My, Mz in N and N m; none by default
+    value, uncertainty : float, m
+        With ``over_clamped`` the relative increase over the structure that is clamped at the
+        mudline, 0.143 for 14.3 %.
+    height : float or None, m
+        Of the point of the axis; the yaw bearing by default.
+    tower_top_load : tuple of float or None, N and N m
+        Fx, Fy, Fz, Mx, My, Mz; none by default.
     """
 
     value: float

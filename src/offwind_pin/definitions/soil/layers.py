@@ -53,7 +53,8 @@ class SoilLayer(Definition):
 
         Raises
         ------
-        ValueError : with the fault, a semicolon and the remedy
+        ValueError
+            With the fault, a semicolon and the remedy.
         """
 
 

@@ -27,7 +27,8 @@ def check_strength(profile: DepthLine | DepthTable) -> DepthLine | DepthTable:
 
     Raises
     ------
-    ValueError : it looks like kPa, or like no soil
+    ValueError
+        It looks like kPa, or like no soil.
     """
     largest = float(profile.at(LOOKED_AT).max())
     if largest < STRENGTH_PA[0]:
@@ -48,7 +49,8 @@ def check_skin_friction(profile: DepthLine | DepthTable) -> DepthLine | DepthTab
 
     Raises
     ------
-    ValueError : it looks like kPa, or is beyond any ground's
+    ValueError
+        It looks like kPa, or is beyond any ground's.
     """
     largest = float(profile.at(LOOKED_AT).max())
     low, high = SKIN_FRICTION_PA
@@ -65,7 +67,8 @@ def check_shear_modulus(profile: DepthLine | DepthTable) -> DepthLine | DepthTab
 
     Raises
     ------
-    ValueError : it looks like kPa or MPa, or like no soil
+    ValueError
+        It looks like kPa or MPa, or like no soil.
     """
     largest = float(profile.at(LOOKED_AT).max())
     if largest < SHEAR_MODULUS_PA[0]:
@@ -86,7 +89,8 @@ def check_unit_weight(value: float) -> float:
 
     Raises
     ------
-    ValueError : it looks like kN/m3, or like the total unit weight
+    ValueError
+        It looks like kN/m3, or like the total unit weight.
     """
     low, high = SUBMERGED_UNIT_WEIGHT_N_PER_M3
     if value < low:
@@ -107,7 +111,8 @@ def check_friction_angle(value: float) -> float:
 
     Raises
     ------
-    ValueError : it looks like radians, or like no sand
+    ValueError
+        It looks like radians, or like no sand.
     """
     low, high = FRICTION_ANGLE_DEG
     if value <= math.pi / 2:
@@ -124,7 +129,8 @@ def check_strain_50(value: float) -> float:
 
     Raises
     ------
-    ValueError : it looks like percent, or is far below what any clay shows
+    ValueError
+        It looks like percent, or is far below what any clay shows.
     """
     low, high = STRAIN_50
     if value > high:
@@ -144,7 +150,8 @@ def check_relative_density(value: float) -> float:
 
     Raises
     ------
-    ValueError : it looks like percent
+    ValueError
+        It looks like percent.
     """
     if value > 1:
         raise ValueError(
@@ -159,7 +166,8 @@ def check_rigidity(shear_modulus: Array, strength: Array) -> None:
 
     Raises
     ------
-    ValueError : one of them is in another unit than the other
+    ValueError
+        One of them is in another unit than the other.
     """
     low, high = RIGIDITY_INDEX
     ratio = float(shear_modulus.sum() / strength.sum()) if strength.any() else math.inf

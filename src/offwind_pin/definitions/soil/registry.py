@@ -13,7 +13,8 @@ def register_layer(kind: type[SoilLayer]) -> None:
 
     Raises
     ------
-    InputError : another kind has its name
+    InputError
+        Another kind has its name.
     """
     if kind in LAYER_KINDS:
         return

@@ -35,7 +35,8 @@ def response_spectrum_plot(earthquake: xr.Dataset) -> Figure:
 
     Parameters
     ----------
-    earthquake : group ``earthquake`` of a case's results
+    earthquake : Dataset
+        Group ``earthquake`` of a case's results.
     """
     time, acceleration = (earthquake[name].to_numpy() for name in ("time", "acceleration"))
     shown = [i for i in range(3) if np.any(acceleration[:, i])]

@@ -19,7 +19,8 @@ def identified_plot(data: xr.Dataset) -> Figure:
 
     Parameters
     ----------
-    data : group ``identified_modes`` of a case's results
+    data : Dataset
+        Group ``identified_modes`` of a case's results.
     """
     figure = Figure(figsize=(FULL_WIDTH, 0.5 * FULL_WIDTH), layout="constrained")
     values, shapes = figure.subplots(1, 2, width_ratios=[1.5, 1])

@@ -255,12 +255,17 @@ def moment_psd(
 
     Parameters
     ----------
-    frequency : (f,) in Hz
-    density : (f,) one-sided, in (N m)^2/Hz
-    marked : frequencies in Hz by name; modes (FA1, SS2, ...) and excitations are coloured apart
-    bands : low and high ends in Hz of the shaded bands
-    peaks : frequencies in Hz of peaks found, drawn as dots on the curve
-    highest : end of the frequency axis in Hz
+    frequency : (f,) array, Hz
+    density : (f,) array, (N m)^2/Hz
+        One-sided.
+    marked : mapping of str to float, Hz
+        Frequencies by name; modes (FA1, SS2, ...) and excitations are coloured apart.
+    bands : tuple of (float, float), Hz
+        Low and high ends of the shaded bands.
+    peaks : tuple of float, Hz
+        Frequencies of peaks found, drawn as dots on the curve.
+    highest : float, Hz
+        End of the frequency axis.
     """
     figure = Figure(figsize=(FULL_WIDTH, 4.6))
     axes = figure.subplots()
@@ -367,7 +372,8 @@ def p_y_curves(data: xr.Dataset) -> Figure:
 
     Parameters
     ----------
-    data : of :func:`offwind_pin.analysis.drawing_data.soil_dataset`
+    data : Dataset
+        Of :func:`offwind_pin.analysis.drawing_data.soil_dataset`.
     """
     y, end = data["y"].to_numpy(), float(data.attrs["shown_end_m"])
     depth = data["depth"].to_numpy()

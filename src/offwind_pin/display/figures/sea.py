@@ -61,8 +61,11 @@ def surface_elevation(
 
     Parameters
     ----------
-    time, elevation : (t,) in s, and in m above the mean water level
-    ramp : s that are shaded, and in which no crest is sought
+    time : (t,) array, s
+    elevation : (t,) array, m
+        Above the mean water level.
+    ramp : float, s
+        Shaded part, in which no crest is marked.
     """
     crest = highest_crest(time, elevation, ramp)
     zoomed = time[-1] - time[0] > 2 * ZOOM
@@ -130,9 +133,12 @@ def kinematics(
 
     Parameters
     ----------
-    shown : up to three profiles, in that order
-    along : (2,) horizontal unit vector of the components that are drawn
-    mudline, level : heights in m of the ground, and of the mean surface
+    shown : sequence of PowerLaw or LogLaw
+        Up to three profiles, in that order.
+    along : (2,) array
+        Horizontal unit vector of the components that are drawn.
+    mudline, level : float, m
+        Heights of the ground, and of the mean surface.
     """
     figure = Figure(figsize=(FULL_WIDTH, 4.4))
     speed, push = figure.subplots(1, 2, sharey=True)
@@ -175,9 +181,12 @@ def elevation_spectrum(
 
     Parameters
     ----------
-    run : frequencies (f,) in Hz and densities (f,) in m2/Hz of the elevation in the run
-    components : the same of the generated waves, in bands
-    target : the same of the spectrum that the waves were generated from
+    run : Spectrum or None
+        Frequencies (f,) in Hz and densities (f,) in m2/Hz of the elevation in the run.
+    components : Spectrum or None
+        The same of the generated waves, in bands.
+    target : Spectrum or None
+        The same of the spectrum that the waves were generated from.
     """
     figure = Figure(figsize=(FULL_WIDTH, 3.6))
     axes = figure.subplots()
@@ -223,9 +232,12 @@ def force_over_height(
 
     Parameters
     ----------
-    worst : at one instant
-    envelope : smallest and largest (n,) in N/m
-    mudline, level : heights in m of the ground, and of the mean surface
+    worst : ForcePerLength
+        At one instant.
+    envelope : (array, array), N/m
+        Smallest and largest (n,).
+    mudline, level : float, m
+        Heights of the ground, and of the mean surface.
     """
     figure = Figure(figsize=(FULL_WIDTH, 4.4))
     instant, whole = figure.subplots(1, 2, sharey=True)

@@ -54,9 +54,12 @@ def curves_by_depth(
 
     Parameters
     ----------
-    mudline : height in m
-    diameter : of the pile in m
-    reached : (n,) lateral displacement of each node in m, or None
+    mudline : float, m
+        Height.
+    diameter : float, m
+        Of the pile.
+    reached : (n,) array, m, optional
+        Lateral displacement of each node, or None.
     """
     depth = mudline - soil.height
     nodes = _shown_nodes(soil, depth)
@@ -124,10 +127,12 @@ def state_over_depth(
 
     Parameters
     ----------
-    depth : (n,) below the mudline in m
-    displacement : (n,) in m
-    secant, initial : (n,) in N/m2
-    utilisation : (n,) of the ultimate resistance, not a number where there is none
+    depth : (n,) array, m
+        Below the mudline.
+    displacement : (n,) array, m
+    secant, initial : (n,) array, N/m2
+    utilisation : (n,) array
+        Of the ultimate resistance, not a number where there is none.
     """
     figure = Figure(figsize=(FULL_WIDTH, 4.4))
     panels = figure.subplots(1, 3, sharey=True)
@@ -170,8 +175,10 @@ def pushover_curves(push: Pushover, stiffness: Array, macro_element: Array | Non
 
     Parameters
     ----------
-    stiffness : (6, 6) of small motions, whose tangent line is drawn
-    macro_element : (t, 2) load in N and rotation in rad at the same displacements, or None
+    stiffness : (6, 6) array
+        Of small motions, whose tangent line is drawn.
+    macro_element : (t, 2) array, optional
+        Load in N and rotation in rad at the same displacements, or None.
     """
     figure = Figure(figsize=(FULL_WIDTH, 4.1))
     force, moment = figure.subplots(1, 2)
@@ -228,9 +235,12 @@ def damping_over_amplitude(
 
     Parameters
     ----------
-    damping : by name of the model, from :func:`equivalent_damping`
-    chosen : the model that the turbine has
-    reached : displacement in m that a state reaches there, marked by a line
+    damping : mapping of str to Dataset
+        By name of the model, from :func:`equivalent_damping`.
+    chosen : str, optional
+        The model that the turbine has.
+    reached : float, m, optional
+        Displacement that a state reaches there, marked by a line.
     """
     width = max(4.6, FULL_WIDTH * len(damping) / 3)
     figure = Figure(figsize=(width, 3.9))

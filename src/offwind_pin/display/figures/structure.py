@@ -45,7 +45,8 @@ def structure(data: xr.Dataset) -> Figure:
 
     Parameters
     ----------
-    data : of :func:`offwind_pin.analysis.drawing_data.structure_dataset`
+    data : Dataset
+        Of :func:`offwind_pin.analysis.drawing_data.structure_dataset`.
     """
     springs = data["spring_height"].to_numpy() if "spring_height" in data else None
     base, top, mudline = _levels(data)

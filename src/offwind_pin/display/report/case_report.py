@@ -51,8 +51,10 @@ def render_report(tree: xr.DataTree, summary: Mapping[str, Any]) -> str:
 
     Parameters
     ----------
-    tree : results of the case
-    summary : content of ``summary.json``
+    tree : DataTree
+        Results of the case.
+    summary : mapping of str to object
+        Content of ``summary.json``.
     """
     report = CaseReport(tree, summary)
     sea = sea_pictures(report)

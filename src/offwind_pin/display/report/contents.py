@@ -22,12 +22,19 @@ class Published:
 
     Attributes
     ----------
-    quantity : in plain words
-    value, unit : published; the unit is empty for a pure number
-    source : where it is printed
-    ours : the same quantity from this case, or None where it was not computed
-    mode : label of the mode whose frequency it is, for the table of modes; a quantity in Hz named
-        like a mode ("FA1" or "first fore-aft") is put there without it
+    quantity : str
+        In plain words.
+    value : float
+        Published value.
+    unit : str
+        Its unit; empty for a dimensionless number.
+    source : str
+        Where it is printed.
+    ours : float or None
+        The same quantity from this case, or None where it was not computed.
+    mode : str or None
+        Label of the mode whose frequency in Hz it is, for the table of modes; a quantity named like
+        a mode ("FA1" or "first fore-aft") is put there without it.
     """
 
     quantity: str
@@ -43,8 +50,10 @@ class CaseReport:
 
     Parameters
     ----------
-    tree : results, with at least the groups ``case`` and ``structure``
-    summary : content of ``summary.json``
+    tree : DataTree
+        Results, with at least the groups ``case`` and ``structure``.
+    summary : mapping of str to object
+        Content of ``summary.json``.
     """
 
     def __init__(self, tree: xr.DataTree, summary: Mapping[str, Any]) -> None:

@@ -24,7 +24,8 @@ def write_soil(soil: SoilOverview, directory: Path) -> list[Path]:
 
     Returns
     -------
-    paths of the files, the page first
+    list of Path
+        Paths of the files, the page first.
     """
     page, data = directory / "soil.html", directory / "soil.json"
     write_text(page, render_soil_page(soil))

@@ -29,17 +29,27 @@ class Frames:
 
     Attributes
     ----------
-    time : (f,) in s
-    height : (m,) of the axis at rest in m
-    displacement : (f, m, 3) of the axis in m
-    elevation : (f,) of the surface at the axis, above its mean, in m
-    moment : (f, 2) at the mudline about x and y in N m
-    x, y : (p,) (q,) of the patch of sea in m
-    sea : (f, p, q) surface above its mean in m; None where it does not move
-    bending : (f, m) size of the bending moment in N m, of the section moments about x and y
-    top_force : (f, 3) load applied at the yaw bearing in N
-    soil_height : (n,) of the nodes of the soil at rest in m; none where results hold none
-    soil_force : (f, n, 3) of the soil on the pile in N
+    time : (f,) array, s
+    height : (m,) array, m
+        Of the axis at rest.
+    displacement : (f, m, 3) array, m
+        Of the axis.
+    elevation : (f,) array, m
+        Of the surface at the axis, above its mean.
+    moment : (f, 2) array, N m
+        At the mudline about x and y.
+    x, y : array, m
+        (p,) and (q,) coordinates of the patch of sea.
+    sea : (f, p, q) array or None, m
+        Surface above its mean; None where it does not move.
+    bending : (f, m) array, N m
+        Size of the bending moment, of the section moments about x and y.
+    top_force : (f, 3) array, N
+        Load applied at the yaw bearing.
+    soil_height : (n,) array, m
+        Of the nodes of the soil at rest; none where results hold none.
+    soil_force : (f, n, 3) array, N
+        Of the soil on the pile.
     """
 
     time: Array
@@ -71,15 +81,20 @@ def frames(
 
     Parameters
     ----------
-    results : of :func:`offwind_pin.simulate`
-    start, duration : of the part, in s
-    rate : frames a second, at most as many as the results have
-    patch, spacing : side of the square of sea, and distance of its points, in m
+    results : Dataset
+        Of :func:`offwind_pin.simulate`.
+    start, duration : float, s
+        Of the part.
+    rate : float
+        Frames a second, at most as many as the results have.
+    patch, spacing : float, m
+        Side of the square of sea, and distance of its points.
 
     Raises
     ------
-    InputError : results without what a picture needs, or a part that they do not hold, or one that
-        is so long that its sea would move in jerks
+    InputError
+        Results without what a picture needs, or a part that they do not hold, or one that is so
+        long that its sea would move in jerks.
     """
     _require(results)
     time = np.asarray(results.time.values, dtype=float)

@@ -76,12 +76,15 @@ def render_time_history(results: xr.Dataset, start: float = 0.0, duration: float
 
     Parameters
     ----------
-    results : of :func:`offwind_pin.simulate`, in memory or from ``results.nc``
-    start, duration : of the part, in s
+    results : Dataset
+        Of :func:`offwind_pin.simulate`, in memory or from ``results.nc``.
+    start, duration : float, s
+        Of the part.
 
     Raises
     ------
-    InputError : see :func:`offwind_pin.display.viewer.history_frames.frames`
+    InputError
+        See :func:`offwind_pin.display.viewer.history_frames.frames`.
     """
     shown = frames(results, start, duration)
     recorder = Recorder()
@@ -127,8 +130,9 @@ def draw_scene(view: Any, results: xr.Dataset, shown: Frames) -> dict[str, Any]:
 
     Returns
     -------
-    What the page's script must know of these meshes: ``rim``, numbers of the vertices of the
-    surface that are the rim; ``soil_radius`` in m, where arrows of the soil begin.
+    dict of str to object
+        What the page's script must know of these meshes: ``rim``, numbers of the vertices of the
+        surface that are the rim; ``soil_radius``, where the soil's arrows begin, in m.
     """
     light(view)
     height, radius = outline(results, _RING)

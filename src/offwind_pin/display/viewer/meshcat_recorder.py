@@ -35,7 +35,8 @@ class Recorder:
 
     Attributes
     ----------
-    commands : MessagePack of the commands in the order they were given, floats in single precision
+    commands : list of bytes
+        MessagePack of the commands in the order they were given, floats in single precision.
     """
 
     def __init__(self) -> None:

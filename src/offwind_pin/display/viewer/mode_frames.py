@@ -25,12 +25,17 @@ class Shapes:
 
     Attributes
     ----------
-    label : n labels
-    frequency_hz, damping_ratio : (n,)
-    height, radius : (r,) of the rings at rest in m
-    motion : (n, r, 6) displacement in m and rotation in rad of each ring's centre at the peak
-    share : (n, r) displacement, or rotation for torsion, over the largest
-    peak : (n,) the largest, in m, or rad for torsion
+    label : list of str
+        n labels.
+    frequency_hz, damping_ratio : (n,) array
+    height, radius : (r,) array, m
+        Of the rings at rest.
+    motion : (n, r, 6) array
+        Displacement in m and rotation in rad of each ring's centre at the peak.
+    share : (n, r) array
+        Displacement, or rotation for torsion, over the largest.
+    peak : (n,) array, m or rad
+        The largest; in rad for torsion.
     """
 
     label: list[str]
@@ -47,7 +52,8 @@ class Shapes:
 
         Raises
         ------
-        InputError : no mode of that label
+        InputError
+            No mode of that label.
         """
         if label not in self.label:
             raise InputError("modes", label, ", ".join(self.label), "Choose among them.")
@@ -58,7 +64,8 @@ class Shapes:
 
         Raises
         ------
-        InputError : a label that is not there, one asked for twice, or too many
+        InputError
+            A label that is not there, one asked for twice, or too many.
         """
         if labels is None:
             bending = [i for i, label in enumerate(self.label) if label[:2] in {"FA", "SS"}]
@@ -78,11 +85,13 @@ def shapes(results: xr.Dataset) -> Shapes:
 
     Parameters
     ----------
-    results : a dataset of natural modes, in memory or from ``results.nc``
+    results : Dataset
+        A dataset of natural modes, in memory or from ``results.nc``.
 
     Raises
     ------
-    InputError : results without what a picture needs
+    InputError
+        Results without what a picture needs.
     """
     needed = ("shape", "frequency", "damping_ratio", "outline_height", "outline_diameter")
     missing = [name for name in needed if name not in results]

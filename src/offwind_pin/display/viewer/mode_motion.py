@@ -29,11 +29,16 @@ class ModeMotion:
 
     Attributes
     ----------
-    family : FA, SS, T or V
-    poses : (FRAMES + 1, N + 1, 4, 4) of the bodies, a sine from and to the upright state
-    sliding : (FRAMES + 1, D, 4, 4) of the masses of tuned mass dampers
-    share : (N + 1,) amplitude of each body over the largest one
-    peak : the largest amplitude drawn, in m, or in rad for torsion
+    family : str
+        FA, SS, T or V.
+    poses : (FRAMES + 1, N + 1, 4, 4) array
+        Of the bodies, a sine from and to the upright state.
+    sliding : (FRAMES + 1, D, 4, 4) array
+        Of the masses of tuned mass dampers.
+    share : (N + 1,) array
+        Amplitude of each body over the largest one.
+    peak : float
+        The largest amplitude drawn, in m, or in rad for torsion.
     """
 
     family: str
@@ -51,7 +56,8 @@ def mode_motion(system: System, result: ModalResult, label: str) -> ModeMotion:
 
     Raises
     ------
-    InputError : no mode of that label among those computed
+    InputError
+        No mode of that label among those computed.
     """
     index = result.index(label)
     family = result.direction(label)

@@ -44,12 +44,15 @@ def animate(system: System, result: ModalResult, label: str) -> str:
 
     Parameters
     ----------
-    result : modes of this system
-    label : which of them, such as ``"FA2"``
+    result : ModalResult
+        Modes of this system.
+    label : str
+        Which of them, such as ``"FA2"``.
 
     Raises
     ------
-    InputError : no mode of that label among those computed
+    InputError
+        No mode of that label among those computed.
     """
     motion = mode_motion(system, result, label)
     recorder = Recorder()

@@ -47,12 +47,15 @@ def render_modes(results: xr.Dataset, labels: list[str] | None = None) -> str:
 
     Parameters
     ----------
-    results : a dataset of natural modes, in memory or from ``results.nc``
-    labels : modes side by side at first, up to four; by default the first that bend
+    results : Dataset
+        A dataset of natural modes, in memory or from ``results.nc``.
+    labels : list of str, optional
+        Modes side by side at first, up to four; by default the first that bend.
 
     Raises
     ------
-    InputError : as :func:`~offwind_pin.display.viewer.mode_frames.shapes`, or an unknown label
+    InputError
+        As :func:`~offwind_pin.display.viewer.mode_frames.shapes`, or an unknown label.
     """
     shown = shapes(results)
     first = shown.chosen(labels, PLACES)

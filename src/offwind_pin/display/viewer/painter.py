@@ -21,9 +21,12 @@ class Camera:
 
     Attributes
     ----------
-    centre : (3,) in m, the middle of the picture
-    towards : (3,) unit vector from there to the camera
-    distance : between them in m
+    centre : (3,) array, m
+        The middle of the picture.
+    towards : (3,) array
+        Unit vector from there to the camera.
+    distance : float, m
+        Between them.
     """
 
     centre: Array
@@ -62,8 +65,10 @@ def paint(camera: Camera, surfaces: Sequence[Surface]) -> tuple[Array, Array]:
 
     Returns
     -------
-    corners : (t, 3, 2) as :meth:`Camera.project` has them
-    colours : (t, 4) red, green, blue and opacity
+    corners : (t, 3, 2) array
+        As :meth:`Camera.project` has them.
+    colours : (t, 4) array
+        Red, green, blue and opacity.
     """
     corners, colours, depths = [], [], []
     for surface in surfaces:

@@ -43,7 +43,8 @@ def draw_mode(view: Any, system: System, motion: ModeMotion) -> None:
 
     Parameters
     ----------
-    view : a ``meshcat.Visualizer``
+    view : object
+        A ``meshcat.Visualizer``.
     """
     springs = foundation_springs(system, _MOTION_PLANE.get(motion.family, _ALONG_X))
     light(view)

@@ -15,7 +15,8 @@ def page_server(page: str, port: int = 0) -> ThreadingHTTPServer:
 
     Raises
     ------
-    InputError : a port that cannot be had
+    InputError
+        A port that cannot be had.
     """
     content = page.encode()
 

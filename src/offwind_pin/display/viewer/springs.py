@@ -37,8 +37,9 @@ class Spring:
 
         Returns
         -------
-        rotation : (f, 3, 3) that turns x along the spring
-        length : (f,) in m
+        rotation : (f, 3, 3) array
+            That turns x along the spring.
+        length : (f,) array, m
         """
         pose = poses[:, self.body]
         span = pose[:, :3, :3] @ self.tip + pose[:, :3, 3] - self.anchor
@@ -58,7 +59,8 @@ def foundation_springs(system: System, lateral: Array) -> list[Spring]:
 
     Parameters
     ----------
-    lateral : (3,) horizontal unit vector in the plane of the motion
+    lateral : (3,) array
+        Horizontal unit vector in the plane of the motion.
     """
     chain = system.chain
     reach = 0.045 * (chain.top - chain.base)

@@ -404,7 +404,8 @@ def write_still(picture: Picture, path: Path) -> None:
 
     Raises
     ------
-    InputError : another kind of file
+    InputError
+        Another kind of file.
     """
     kind = path.suffix.lower()
     check_still(path)
@@ -437,12 +438,15 @@ def write_frames(
 
     Parameters
     ----------
-    times : (n,) in s, as :meth:`Picture.show` takes them
-    progress : called with the frames written and their number
+    times : (n,) array, s
+        As :meth:`Picture.show` takes them.
+    progress : callable, optional
+        Called with the frames written and their number.
 
     Raises
     ------
-    InputError : the folder holds something
+    InputError
+        The folder holds something.
     """
     check_frames(folder)
     folder.parent.mkdir(parents=True, exist_ok=True)

@@ -38,9 +38,12 @@ class View:
 
     Attributes
     ----------
-    results : a time history or natural modes
-    start, duration : of the part in s; by default the first 60 s after the ramp, of modes 8 s
-    labels : modes side by side, by default the first that bend
+    results : Dataset
+        A time history or natural modes.
+    start, duration : float or None, s
+        Of the part; by default the first 60 s after the ramp, of modes 8 s.
+    labels : list of str or None
+        Modes side by side, by default the first that bend.
     """
 
     results: xr.Dataset

@@ -264,8 +264,12 @@ def inertial_points(
 ) -> tuple[NDArrayInt, int]:
     """First point of inertial damping above each cut, and the point after the last.
 
-    loads : all of a system, those of its structural damping side by side
-    height : (m,) of the cuts in m
+    Parameters
+    ----------
+    loads : sequence of PointLoad
+        All of a system, those of its structural damping side by side.
+    height : (m,) array, m
+        Of the cuts.
     """
     ours = [load in system.structural_loads for load in loads]
     points = np.flatnonzero(np.repeat(ours, np.diff(model.first_point)))

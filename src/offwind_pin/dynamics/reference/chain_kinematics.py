@@ -62,11 +62,14 @@ class ChainMotion:
 
     Parameters
     ----------
-    chain : the chain
-    jacobian, jacobian_rate : (6, nv) world-frame joint Jacobian and its time derivative, linear
-        rows first
-    rotation : (N + 1, 3, 3) orientation of each body
-    q, v, a : (nv,) joint displacements, velocities and accelerations
+    chain : Chain
+        The chain.
+    jacobian, jacobian_rate : (6, nv) array
+        World-frame joint Jacobian and its time derivative, linear rows first.
+    rotation : (N + 1, 3, 3) array
+        Orientation of each body.
+    q, v, a : (nv,) array
+        Joint displacements, velocities and accelerations.
 
     Attributes
     ----------

@@ -45,7 +45,8 @@ class DenseChain:
 
         Raises
         ------
-        LinAlgError : it is singular
+        LinAlgError
+            It is singular.
         """
         time = float(time_inputs[0])
         stiffness, damping = self.equations.tangents(time, q, v, a)

@@ -65,7 +65,8 @@ class Equations:
 
     Attributes
     ----------
-    loads : soil, water and what was given; with water the added mass comes first
+    loads : sequence of PointLoad
+        Soil, water and what was given; with water the added mass comes first.
     points : where they act
     model, data : Pinocchio's, the data those of this thread
     last_joint : (N + 1) joint of the model that moves each body

@@ -17,11 +17,13 @@ def body_poses(system: System, q: Array) -> Array:
 
     Parameters
     ----------
-    q : (nv,) joint displacements in m and rad
+    q : (nv,) array, m and rad
+        Joint displacements.
 
     Returns
     -------
-    (N + 1, 4, 4) homogeneous transforms from body to inertial axes, lengths in m
+    (N + 1, 4, 4) array
+        Homogeneous transforms from body to inertial axes, lengths in m.
     """
     import pinocchio as pin
 

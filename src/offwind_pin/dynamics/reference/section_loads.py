@@ -21,7 +21,8 @@ def section_loads(
 
     Parameters
     ----------
-    height : (m,) undeformed heights of the cuts in m
+    height : (m,) array, m
+        Undeformed heights of the cuts.
     """
     chain = equations.chain
     state = equations.inverse_dynamics(time, q, v, a)

@@ -12,13 +12,13 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from offwind_pin.base.errors import InputError
-from offwind_pin.base.number_tables import read_text
+from offwind_pin.base.input_files import read_text
+from offwind_pin.base.number_tables import parse_number
 from offwind_pin.base.whole_files import write_text
 
 Array = NDArray[np.float64]
@@ -54,12 +54,15 @@ def write_subdyn_ssi(
 
     Parameters
     ----------
-    stiffness, mass : (6, 6), symmetric; without a mass zeros are written
-    note : one line for the head of the file
+    stiffness, mass : (6, 6) array_like
+        Symmetric; without a mass zeros are written.
+    note : str
+        One line for the head of the file.
 
     Raises
     ------
-    InputError : a matrix that is not six by six, finite and symmetric
+    InputError
+        A matrix that is not six by six, finite and symmetric.
     """
     lines = [f"! Foundation at the mudline. {_one_line(note)}".rstrip()]
     parts: list[tuple[str, str, ArrayLike]] = [
@@ -78,7 +81,8 @@ def read_subdyn_ssi(path: Path) -> tuple[Array, Array]:
 
     Raises
     ------
-    InputError : a missing file, or a line that is not a number and the name of an entry
+    InputError
+        A missing file, or a line that is not a number and the name of an entry.
     """
     names = {
         _entry(letter, i, j).lower(): (which, i, j)
@@ -121,14 +125,18 @@ def write_soildyn(
 
     Parameters
     ----------
-    stiffness : (6, 6)
-    location : x, y, z of the interface point in m, z from still water level
-    damping : (6, 6) of what SoilDyn's own files call damping ratios; zeros by default
-    note : the second line of the file
+    stiffness : (6, 6) array_like
+    location : sequence of float, m
+        x, y, z of the interface point, z from still water level.
+    damping : (6, 6) array_like, optional
+        Of what SoilDyn's own files call damping ratios; zeros by default.
+    note : str
+        The second line of the file.
 
     Raises
     ------
-    InputError : a matrix or place that is not of finite numbers
+    InputError
+        A matrix or place that is not of finite numbers.
     """
     place = np.asarray(location, dtype=float)
     if place.shape != (3,) or not np.all(np.isfinite(place)):
@@ -169,7 +177,8 @@ def read_soildyn(path: Path) -> SoilDynInput:
 
     Raises
     ------
-    InputError : a missing file, one that is too short, or a line without its numbers
+    InputError
+        A missing file, one that is too short, or a line without its numbers.
     """
     lines = dict(enumerate(read_text(path).splitlines(), 1))
     last = _DAMPING_AT + 5
@@ -231,12 +240,9 @@ def _numbers(path: Path, lines: dict[int, str], line: int, count: int) -> Array:
     return np.array([_number(where, word) for word in words[:count]])
 
 
-def _number(where: str, word: Any) -> float:
+def _number(where: str, word: str) -> float:
     """A number as Fortran writes it: 1.0D3 is 1000."""
-    try:
-        value = float(re.sub("[dD]", "E", word))
-    except ValueError:
-        value = np.nan
-    if not np.isfinite(value):
+    value = parse_number(re.sub("[dD]", "E", word))
+    if value is None:
         raise InputError(where, word, "a finite number", "Correct it.")
     return value

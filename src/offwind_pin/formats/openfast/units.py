@@ -37,7 +37,8 @@ def si_factor(where: str, unit: str, kind: str) -> float:
 
     Raises
     ------
-    InputError : a unit that is not known, or is of another kind
+    InputError
+        A unit that is not known, or is of another kind.
     """
     plain = _BETWEEN.sub("", unit.strip().strip("()[]"))
     found = _KNOWN.get(plain)

@@ -39,8 +39,9 @@ def from_channels(output: OpenFastOutput, channels: Mapping[str, str]) -> LoadHi
 
     Raises
     ------
-    InputError : an unknown channel or unit; times that do not rise, or leave a gap; loads beyond
-        anything a turbine gives
+    InputError
+        An unknown channel or unit; times that do not rise, or leave a gap; loads beyond anything a
+        turbine gives.
     """
     check_times(output.path, output.time, output.place, output.counted)
     load = np.zeros((len(output.time), 6))
@@ -71,7 +72,8 @@ def from_rotor_apex(
 
     Raises
     ------
-    InputError : as above; or components across the shaft without an azimuth
+    InputError
+        As above; or components across the shaft without an azimuth.
     """
     history = from_channels(output, channels)
     force, moment = history.load[:, :3], history.load[:, 3:]
@@ -134,7 +136,8 @@ def superpose(histories: Sequence[LoadHistory]) -> tuple[LoadHistory, list[str]]
 
     Raises
     ------
-    InputError : histories that have no time in common
+    InputError
+        Histories that have no time in common.
     """
     if len(histories) == 1:
         return histories[0], []

@@ -40,7 +40,10 @@ class RecordFile(Definition):
                 "at2 (files by axis)"
             )
         if self.at2 is not None and (self.acceleration_unit or self.components):
-            raise ValueError("at2 files are in g, by axis; leave acceleration_unit and components")
+            raise ValueError(
+                "at2 files name their unit and are given by axis; leave acceleration_unit and "
+                "components out"
+            )
         if self.file is not None and not (self.acceleration_unit and self.components):
             raise ValueError(
                 "the file's unit or axes are missing; give acceleration_unit (m_per_s2, cm_per_s2 "
@@ -69,11 +72,16 @@ class Earthquake(RecordFile):
 
     Attributes
     ----------
-    levels : records by height, in place of a single one
-    scale : float, multiplies accelerations
-    direction_deg : float, degrees from +x towards +y, by which the record is rotated about z
-    start : float, s, when the record's time 0 is
-    baseline : see :class:`GroundMotion`
+    levels : tuple of LevelRecord or None
+        Records by height, in place of a single one.
+    scale : float
+        Multiplies accelerations.
+    direction_deg : float
+        Degrees from +x towards +y, by which the record is rotated about z.
+    start : float, s
+        When the record's time 0 is.
+    baseline : {"none", "parabolic"}
+        See :class:`GroundMotion`.
     """
 
     levels: Annotated[tuple[LevelRecord, ...], Field(min_length=2)] | None = None
@@ -95,7 +103,8 @@ class Earthquake(RecordFile):
 
         Raises
         ------
-        InputError : a file that cannot be used, or levels that differ in their times
+        InputError
+            A file that cannot be used, or levels that differ in their times.
         """
         if self.levels is None:
             record, cautions = self.read()

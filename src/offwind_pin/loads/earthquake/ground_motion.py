@@ -32,20 +32,26 @@ class GroundMotion:
 
     Attributes
     ----------
-    time : (n,) in s, rising
-    acceleration : (n, 3) along x, y, z in m/s2, or (D, n, 3) at D heights
-    height : (D,) in m, rising, from z = 0 at still water level upwards; between them the motion is
-        linear in z. None for one motion everywhere
-    baseline : ``"parabolic"`` takes a parabola off each component of the acceleration, so that the
+    time : (n,) array, s
+        Rising.
+    acceleration : (n, 3) array, m/s2
+        Along x, y, z, or (D, n, 3) at D heights.
+    height : (D,) array or None, m
+        Rising, from z = 0 at still water level upwards; between them the motion is linear in z.
+        None for one motion everywhere.
+    baseline : {"none", "parabolic"}
+        ``"parabolic"`` takes a parabola off each component of the acceleration, so that the
         velocity ends at zero and its mean square is the least that this allows; after Berg and
         Housner (Bulletin of the Seismological Society of America 51, 1961, pages 175 to 189), who
-        do not ask for the former
-    origin : where the numbers come from
+        do not ask for the former.
+    origin : str
+        Where the numbers come from.
 
     Raises
     ------
-    InputError : shapes that do not fit, numbers that are not finite or no ground can reach, times
-        that do not rise or leave a gap, heights that do not rise
+    InputError
+        Shapes that do not fit, numbers that are not finite or no ground can reach, times that do
+        not rise or leave a gap, heights that do not rise.
     """
 
     time: Array
@@ -182,7 +188,8 @@ def ground_motion_cautions(motion: GroundMotion, dt: float, duration: float) -> 
 
     Raises
     ------
-    InputError : it begins after the end
+    InputError
+        It begins after the end.
     """
     if motion.time[0] >= duration:
         raise InputError(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import hashlib
+import math
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -11,9 +11,10 @@ from typing import Literal
 
 import numpy as np
 
-from offwind_pin.base.definition import Array
+from offwind_pin.base.definition import Array, origin_of
 from offwind_pin.base.errors import InputError
-from offwind_pin.base.number_tables import read_text, read_time_columns, to_numbers
+from offwind_pin.base.input_files import read_text
+from offwind_pin.base.number_tables import parse_number, read_time_columns, to_numbers
 
 Unit = Literal["m_per_s2", "cm_per_s2", "g"]
 Axis = Literal["x", "y", "z"]
@@ -26,6 +27,8 @@ AXES = ("x", "y", "z")
 
 STRONG, WEAK = 20.0, 0.5
 """m/s2; peaks beyond the first are rarer than a wrong unit; those below the second are weak."""
+_COARSEST = 0.5
+"""s; no accelerogram is sampled as coarsely, so that longer steps are more likely ms."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,20 +47,23 @@ def read_columns(path: Path, unit: Unit, components: Sequence[Axis]) -> Accelero
 
     Parameters
     ----------
-    unit : of the accelerations
-    components : axis of each column after the time's
+    unit : {"m_per_s2", "cm_per_s2", "g"}
+        Of the accelerations.
+    components : sequence of {"x", "y", "z"}
+        Axis of each column after the time's.
 
     Raises
     ------
-    InputError : a missing, empty or truncated file; a cell that is not a number; times that do not
-        rise or leave a gap; an axis named twice
+    InputError
+        A missing, empty or truncated file; a cell that is not a number; times that do not rise,
+        leave a gap, or are not in s; an axis named twice.
     """
     check_components(components)
-    values, _, text = read_time_columns(path, 1 + len(components))
+    values = read_time_columns(path, 1 + len(components), coarsest=_COARSEST).values
     acceleration = np.zeros((len(values), 3))
     for column, axis in enumerate(components, 1):
         acceleration[:, AXES.index(axis)] = UNITS[unit] * values[:, column]
-    return Accelerogram(values[:, 0], acceleration, _origin(path, text))
+    return Accelerogram(values[:, 0], acceleration, origin_of(path))
 
 
 def check_components(components: Sequence[str]) -> None:
@@ -65,7 +71,8 @@ def check_components(components: Sequence[str]) -> None:
 
     Raises
     ------
-    InputError : with what was named
+    InputError
+        With what was named.
     """
     unknown = set(components) - set(AXES)
     if unknown or not components or len(set(components)) < len(components):
@@ -74,59 +81,96 @@ def check_components(components: Sequence[str]) -> None:
         )
 
 
-_HEADS = (
-    re.compile(r"NPTS\s*=\s*(?P<count>\d+)\s*,?\s*DT\s*=\s*(?P<step>[\d.]+(?:[eE][-+]?\d+)?)"),
-    re.compile(r"^\s*(?P<count>\d+)\s+(?P<step>[\d.]+(?:[eE][-+]?\d+)?)\s+NPTS\s*,\s*DT"),
-)
+_VALUE = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:E[+-]?[0-9]+)?"
+_NAMED_COUNT = re.compile(r"\bNPTS\s*[=:]\s*([0-9]+)(?![0-9.])", re.IGNORECASE)
+_NAMED_STEP = re.compile(rf"\bDT\s*[=:]\s*({_VALUE})\s*([a-z]*)", re.IGNORECASE)
+_UNNAMED = re.compile(rf"^\s*([0-9]+)\s+({_VALUE})\s+NPTS\s*,\s*DT()", re.IGNORECASE)
 """The two ways in which PEER has written number and interval of the samples."""
 _HEADER_LINES = 10
+_UNIT = re.compile(r"\bUNITS?\s*(?:\bOF\b|[:=])\s*([^\s,;]+)", re.IGNORECASE)
+_AT2_UNITS = {
+    "G": STANDARD_GRAVITY,
+    "G'S": STANDARD_GRAVITY,
+    "GS": STANDARD_GRAVITY,
+    "M/S2": 1.0,
+    "CM/S2": 0.01,
+    "MM/S2": 0.001,
+    "GAL": 0.01,
+    "IN/S2": 0.0254,
+    "FT/S2": 0.3048,
+}
+"""m/s2, by the spelling that :func:`_at2_unit` gives to CM/SEC/SEC, cm/s^2 and the like."""
 
 
 def read_at2(path: Path) -> tuple[float, Array, str]:
-    """Interval in s, acceleration (n,) in m/s2, and origin, out of a file of PEER's.
+    """Interval in s, acceleration (n,) in m/s2, and origin, of a file of the PEER database.
 
-    A header ends with number and interval of the samples (``NPTS= 4000, DT= .0050 SEC``); then
-    come the samples in g, several in a line. That is the format as it is found in files and
-    readers of it; PEER has not published a definition.
+    A header names the unit and ends with number and interval of the samples (``NPTS= 4000, DT=
+    .0050 SEC``, in capitals or not); then come the samples, several in a line. A closing line of
+    text may follow them. That is the format as it is found in files and readers of it; PEER has not
+    published a definition.
 
     Raises
     ------
-    InputError : no such header, another unit, a cell that is not a number, or a wrong count
+    InputError
+        No such header, no unit or an unknown one, a cell that is not a number, or a wrong count.
     """
-    text = read_text(path)
-    lines = text.splitlines()
-    heads = [
-        (number, match)
-        for number, line in enumerate(lines[:_HEADER_LINES])
-        for head in _HEADS
-        if (match := head.search(line))
-    ]
-    if not heads:
-        raise InputError(
-            str(path),
-            "no line with NPTS and DT",
-            f"one such as 'NPTS= 4000, DT= .0050 SEC' in the first {_HEADER_LINES} lines",
-            "Is it an AT2 file? Columns of numbers go under file.",
-        )
-    number, found = heads[0]
-    unit = re.search(r"UNITS\s+OF\s+([^\s,]+)", " ".join(lines[:number]))
-    if unit and unit[1].upper().rstrip(".") != "G":
-        raise InputError(
-            f"{path}, header", unit[1], "accelerations in units of G", "Is it a velocity (VT2)?"
-        )
+    lines = read_text(path).splitlines()
+    number, count, interval = _at2_header(path, lines)
+    factor = _at2_unit(path, lines[:number])
     values: list[float] = []
-    for place, line in enumerate(lines[number + 1 :], number + 2):
+    for position, line in enumerate(lines[number:], number + 1):
         cells = line.split()
-        values += to_numbers(path, place, cells, len(cells))
-    count, step = int(found["count"]), float(found["step"])
-    if len(values) != count or count < 2 or not step > 0:
+        if len(values) >= count and cells and parse_number(cells[0]) is None:
+            continue  # a closing line
+        values += to_numbers(path, position, cells, len(cells))
+    if len(values) != count or count < 2 or not 0 < interval < math.inf:
         raise InputError(
-            f"{path}, line {number + 1}",
-            f"{len(values)} samples, {count} promised, {step:g} s apart",
+            f"{path}, line {number}",
+            f"{len(values)} samples, {count} promised, {interval:g} s apart",
             "as many as promised, two or more, at a positive interval",
             "Is the file complete?",
         )
-    return step, STANDARD_GRAVITY * np.array(values), _origin(path, text)
+    return interval, factor * np.array(values), origin_of(path)
+
+
+def _at2_header(path: Path, lines: list[str]) -> tuple[int, int, float]:
+    """Number of the header's last line, number of samples, and their interval in s."""
+    for number, line in enumerate(lines[:_HEADER_LINES], 1):
+        named = _NAMED_COUNT.search(line), _NAMED_STEP.search(line)
+        if named[0] and named[1]:
+            count, (step, unit) = named[0][1], named[1].groups()
+        elif unnamed := _UNNAMED.search(line):
+            count, step, unit = unnamed.groups()
+        else:
+            continue
+        if unit.upper() not in ("", "S", "SEC", "SECS", "SECONDS", "NPTS"):
+            where = f"{path}, line {number}"
+            raise InputError(where, f"DT in {unit}", "DT in SEC", "Convert the interval to s.")
+        return number, int(count), float(step)
+    raise InputError(
+        str(path),
+        "no line with NPTS and DT",
+        f"one such as 'NPTS= 4000, DT= .0050 SEC' in the first {_HEADER_LINES} lines",
+        "Is it an AT2 file? Columns of numbers go under file.",
+    )
+
+
+def _at2_unit(path: Path, header: list[str]) -> float:
+    """What the samples are multiplied by to be in m/s2."""
+    found = _UNIT.search(" ".join(header))
+    spelled = "" if found is None else found[1].strip("().'").upper()
+    plain = spelled.replace("SEC", "S").translate(str.maketrans("", "", "^* "))
+    plain = plain.removesuffix("S") if plain == "GALS" else plain.replace("/S/S", "/S2")
+    factor = _AT2_UNITS.get(plain)
+    if factor is None:
+        raise InputError(
+            f"{path}, header",
+            "no unit" if found is None else found[1],
+            f"UNITS OF {', '.join(_AT2_UNITS)}",
+            "Is it a velocity (VT2)? Name the unit in the header, or convert the samples to g.",
+        )
+    return factor
 
 
 def read_at2_components(paths: Mapping[Axis, Path]) -> Accelerogram:
@@ -134,7 +178,8 @@ def read_at2_components(paths: Mapping[Axis, Path]) -> Accelerogram:
 
     Raises
     ------
-    InputError : as in :func:`read_at2`; intervals that differ
+    InputError
+        As in :func:`read_at2`; intervals that differ.
     """
     check_components(list(paths))
     read = {axis: read_at2(path) for axis, path in paths.items()}
@@ -165,8 +210,3 @@ def unit_cautions(acceleration: Array, unit: Unit) -> list[str]:
         hint = "" if unit == "g" else f"; are the numbers in {likely}?"
         return [f"a peak of {number} in the unit {unit} is {peak:.3g} m/s2, a weak motion{hint}"]
     return []
-
-
-def _origin(path: Path, text: str) -> str:
-    digest = hashlib.sha256(text.encode()).hexdigest()
-    return f"{path.name} (SHA-256 {digest})"

@@ -37,8 +37,10 @@ class Current(Definition, kw_only=False):
 
     Attributes
     ----------
-    speed : float, m/s, at the mean water level
-    direction_deg : float, degrees from +x towards +y, towards which it flows
+    speed : float, m/s
+        At the mean water level.
+    direction_deg : float
+        Degrees from +x towards +y, towards which it flows.
     """
 
     speed: Annotated[NonNegative, Field(le=FASTEST)] = key("speed_m_per_s")

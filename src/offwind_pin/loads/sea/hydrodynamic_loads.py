@@ -30,9 +30,14 @@ class HydrodynamicModel:
 
     Attributes
     ----------
-    strips : from the mudline up to the highest surface
-    surface, water : its surface, and its motion at the strips
-    added_mass, drag : (n,) coefficients of the strips
+    strips : Strips
+        From the mudline up to the highest surface.
+    surface : WaterSurface
+        Surface of the water.
+    water : Water
+        Motion of the water at the strips.
+    added_mass, drag : (n,) array
+        Coefficients of the strips.
     """
 
     turbine: Turbine

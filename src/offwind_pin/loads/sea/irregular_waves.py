@@ -57,18 +57,24 @@ class IrregularWaves(LinearSea, kw_only=False):
 
     Attributes
     ----------
-    seed : int, draws phases first, then amplitudes, then directions, each for all components from
-        the lowest frequency up; an option that is left out changes none of the other draws. By
-        default that of the load case, or 1
-    repeat_period : float, s, after which the waves repeat; at least the simulated time. By default
-        the length of the load case, or 600 s if that is longer
-    direction_deg : float, degrees from +x towards +y, in which they travel, or their mean direction
-    amplitudes : ``"deterministic"``, each component having the variance of the spectrum, or
-        ``"random"``, each having it in the mean and following Rayleigh's distribution, so that the
-        surface is Gaussian and the variance of a realisation varies
-    spreading : of directions, one drawn for each component, so that no two of one frequency
-        interfere and the sea is ergodic; None for long crests
-    crest : prescribed crest, or None, see :func:`with_crest`
+    seed : int or None
+        Draws phases first, then amplitudes, then directions, each for all components from the
+        lowest frequency up; an option that is left out changes none of the other draws. By default
+        that of the load case, or 1.
+    repeat_period : float or None, s
+        After which the waves repeat; at least the simulated time. By default the length of the load
+        case, or 600 s if that is longer.
+    direction_deg : float
+        Degrees from +x towards +y, in which they travel, or their mean direction.
+    amplitudes : {"deterministic", "random"}
+        ``"deterministic"``, each component having the variance of the spectrum, or ``"random"``,
+        each having it in the mean and following Rayleigh's distribution, so that the surface is
+        Gaussian and the variance of a realisation varies.
+    spreading : Spreading or None
+        Of directions, one drawn for each component, so that no two of one frequency interfere and
+        the sea is ergodic; None for long crests.
+    crest : Crest or None
+        Prescribed crest, or None, see :func:`with_crest`.
     """
 
     kind: Literal["irregular_waves"] = Field(default="irregular_waves", kw_only=True)
@@ -149,7 +155,8 @@ class IrregularWaves(LinearSea, kw_only=False):
 
         Raises
         ------
-        InputError : neither the sea nor a load case gives it, or it is too short
+        InputError
+            Neither the sea nor a load case gives it, or it is too short.
         """
         if self.repeat_period is None:
             raise InputError(
@@ -193,7 +200,8 @@ class IrregularWaves(LinearSea, kw_only=False):
 
         Raises
         ------
-        InputError : a current that blocks them, or a crest that cannot be had
+        InputError
+            A current that blocks them, or a crest that cannot be had.
         """
         period = self.longest_time
         step = 1 / period
@@ -255,7 +263,8 @@ def with_crest(waves: LinearWaves, variance: Array, crest: Crest) -> LinearWaves
 
     Raises
     ------
-    InputError : a crest too high for the sea, or too low to be one there
+    InputError
+        A crest too high for the sea, or too low to be one there.
     """
     where = "sea, field crest"
     omega, m0 = waves.omega, np.sum(variance)

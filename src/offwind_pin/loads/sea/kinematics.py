@@ -40,7 +40,10 @@ class WaterSurface:
 
     Attributes
     ----------
-    waves, level : the waves, and the mean height of the surface in m
+    waves : WaveField or None
+        The waves; None for still water.
+    level : float, m
+        Mean height of the surface.
     rule : how the kinematics reach the moving surface; None where the surface stays
     highest_elevation, lowest_elevation : over a whole period of the waves, in m above the level
     highest, lowest : of the surface that strips see, in m

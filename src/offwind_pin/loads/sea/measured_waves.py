@@ -42,12 +42,16 @@ class MeasuredWaves(LinearSea, kw_only=False):
 
     Attributes
     ----------
-    record : a file, see :func:`read_surface_record`, or samples, see :meth:`SurfaceRecord.of`
-    low_cut, high_cut : float, Hz, between which the record is taken for free linear waves; below
-        are tides and bound waves, above noise and bound waves again, which linear theory would let
-        decay too slowly, or too fast, with depth
-    direction_deg : float, degrees from +x towards +y, in which they travel
-    taper : float, s, over which each end fades; by default a hundredth of the record
+    record : SurfaceRecord or Path
+        A file, see :func:`read_surface_record`, or samples, see :meth:`SurfaceRecord.of`.
+    low_cut, high_cut : float, Hz
+        Between which the record is taken for free linear waves; below are tides and bound waves,
+        above noise and bound waves again, which linear theory would let decay too slowly, or too
+        fast, with depth.
+    direction_deg : float
+        Degrees from +x towards +y, in which they travel.
+    taper : float or None, s
+        Over which each end fades; by default a hundredth of the record.
     """
 
     kind: Literal["measured_waves"] = Field(default="measured_waves", kw_only=True)
@@ -72,7 +76,8 @@ class MeasuredWaves(LinearSea, kw_only=False):
 
         Raises
         ------
-        InputError : a file that cannot be used, or settings that do not fit what is in it
+        InputError
+            A file that cannot be used, or settings that do not fit what is in it.
         """
         if isinstance(self.record, SurfaceRecord):
             return self.record

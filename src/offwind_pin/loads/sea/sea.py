@@ -40,9 +40,12 @@ class Sea(Definition):
 
     Attributes
     ----------
-    current : one current, a :class:`CurrentSum` of several, or None
-    water_level : float, m, mean height of the surface (tide, surge)
-    stretching : how linear waves act above the mean water level, see :class:`WaterSeries`
+    current : UniformCurrent, PowerLawCurrent, SurfaceCurrent, CurrentTable, CurrentSum or None
+        One current, a :class:`CurrentSum` of several, or None.
+    water_level : float, m
+        Mean height of the surface (tide, surge).
+    stretching : {"none", "vertical", "extrapolation", "wheeler"}
+        How linear waves act above the mean water level, see :class:`WaterSeries`.
     """
 
     current: CurrentChoice | None = None
@@ -63,8 +66,10 @@ class Sea(Definition):
 
         Parameters
         ----------
-        seed : of the case
-        duration : s, of the case
+        seed : int
+            Of the case.
+        duration : float, s
+            Of the case.
         """
         return self
 
@@ -133,11 +138,13 @@ class LinearSea(Sea):
 
     Attributes
     ----------
-    order : 1 for linear waves, 2 for their bound components at sums and differences of frequencies
-        as well, see :class:`SecondOrderWaves`
-    doppler : bool, whether the current carries the waves. Then their frequencies are those that a
-        fixed observer sees, and their lengths those on water that flows everywhere as the current
-        does in the mean over the depth, along each of them. The heights stay those given.
+    order : {1, 2}
+        1 for linear waves, 2 for their bound components at sums and differences of frequencies as
+        well, see :class:`SecondOrderWaves`.
+    doppler : bool
+        Whether the current carries the waves. Then their frequencies are those that a fixed
+        observer sees, and their lengths those on water that flows everywhere as the current does in
+        the mean over the depth, along each of them. The heights stay those given.
     """
 
     order: Order = 1
@@ -175,7 +182,8 @@ class LinearSea(Sea):
 
         Raises
         ------
-        InputError : the current blocks too much of the waves
+        InputError
+            The current blocks too much of the waves.
         """
         if not self.doppler or self.current is None:
             return LinearWaves.free(period, harmonic, elevation, depth, gravity, direction)
@@ -210,9 +218,11 @@ class RegularWaves(LinearSea, kw_only=False):
 
     Attributes
     ----------
-    height : float, m, from trough to crest
+    height : float, m
+        From trough to crest.
     period : float, s
-    direction_deg : float, degrees from +x towards +y, in which it travels
+    direction_deg : float
+        Degrees from +x towards +y, in which it travels.
     """
 
     kind: Literal["regular_waves"] = Field(default="regular_waves", kw_only=True)
@@ -252,11 +262,16 @@ class StreamWaves(Sea, kw_only=False):
 
     Attributes
     ----------
-    height : float, m, from trough to crest
-    period : float, s, as a fixed observer sees it
-    direction_deg : float, degrees from +x towards +y, in which it travels
-    crest_time : float, s, at which its crest is at the axis
-    order : of the series, or None for one that is large enough
+    height : float, m
+        From trough to crest.
+    period : float, s
+        As a fixed observer sees it.
+    direction_deg : float
+        Degrees from +x towards +y, in which it travels.
+    crest_time : float, s
+        At which its crest is at the axis.
+    order : int or None
+        Of the series, or None for one that is large enough.
     """
 
     kind: Literal["stream_function_waves"] = Field(default="stream_function_waves", kw_only=True)

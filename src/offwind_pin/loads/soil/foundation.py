@@ -30,14 +30,22 @@ class Foundation:
 
     Attributes
     ----------
-    name : as in the public interface
-    base : height of the chain's base in m
-    root : restraint of the base's six joints, or None where the base does not move
-    soil : loads along the embedded pile
-    surrogate : why its numbers are used in place of others, or None
-    structure : what is supported, where that is not the turbine as defined
-    facts : plain data about how it came about
-    cautions : sentences about curves that are used outside their field base
+    name : str
+        As in the public interface.
+    base : float, m
+        Height of the chain's base.
+    root : RootRestraint or None
+        Restraint of the base's six joints, or None where the base does not move.
+    soil : tuple of PointLoad
+        Loads along the embedded pile.
+    surrogate : str or None
+        Why its numbers are used in place of others, or None.
+    structure : Turbine or None
+        What is supported, where that is not the turbine as defined.
+    facts : dict of str to object
+        Plain data about how it came about.
+    cautions : tuple of str
+        Sentences about curves that are used outside their field base.
     """
 
     name: str
@@ -81,7 +89,8 @@ def given_stiffness(turbine: Turbine) -> Array:
 
     Raises
     ------
-    InputError : none are given, or the mudline is no longer where they belong to
+    InputError
+        None are given, or the mudline is no longer where they belong to.
     """
     springs = turbine.soil.coupled_springs
     if springs is None:

@@ -136,12 +136,15 @@ class MacroElement(KernelRestraint):
 
     Attributes
     ----------
-    stiffness : (6, 6) of small motions in N, m, rad; the same in both planes
-    translation, rotation : (j,) stiffness of the elements at the decoupling depth in N/m, N m/rad;
-        their sums are those of ``stiffness``
-    limit : (j,) root of twice the energy that an element stores at most, in sqrt(J); infinite for
-        one that never yields
-    departure : largest relative departure from the path that the element was fitted to
+    stiffness : (6, 6) array, N, m, rad
+        Of small motions; the same in both planes.
+    translation, rotation : (j,) array, N/m, N m/rad
+        Stiffness of the elements at the decoupling depth; their sums are those of ``stiffness``.
+    limit : (j,) array
+        Root of twice the energy that an element stores at most, in sqrt(J); infinite for one that
+        never yields.
+    departure : float
+        Largest relative departure from the path that the element was fitted to.
     """
 
     stiffness: Array
@@ -197,14 +200,18 @@ class MacroElement(KernelRestraint):
 
         Parameters
         ----------
-        stiffness : (6, 6) of small motions
-        displacement, rotation : (t,) of the mudline along x in m and about y in rad, rising
-        force, moment : (t,) that belong to them, in N and N m
+        stiffness : (6, 6) array
+            Of small motions.
+        displacement, rotation : (t,) array
+            Of the mudline along x in m and about y in rad, rising.
+        force, moment : (t,) array, N and N m
+            That belong to them.
 
         Raises
         ------
-        InputError : planes of different stiffness; a path that does not rise, or does not start
-            with the stiffness of the 6x6
+        InputError
+            Planes of different stiffness; a path that does not rise, or does not start with the
+            stiffness of the 6x6.
         """
         check_planes(stiffness)
         arm = stiffness[_X, _RY] / stiffness[_X, _X]

@@ -19,10 +19,14 @@ class PileNodes:
 
     Attributes
     ----------
-    depth : (n,) depth below the actual mudline in m
-    diameter : (n,) outer diameter of the pile in m
-    length : embedded length of the pile in m, from the actual mudline to the toe
-    scour : how far the actual mudline lies below the original one in m; negative for deposition
+    depth : (n,) array, m
+        Depth below the actual mudline.
+    diameter : (n,) array, m
+        Outer diameter of the pile.
+    length : float, m
+        Embedded length of the pile, from the actual mudline to the toe.
+    scour : float, m
+        How far the actual mudline lies below the original one; negative for deposition.
     """
 
     depth: Array

@@ -55,10 +55,14 @@ class CoupledDamping(KernelLoad):
 
     Attributes
     ----------
-    name : of the load
-    height : (n,) undeformed heights of the points in m
-    wrench : (k, n, 6) force and moment of each damper at each point, per unit of its own force
-    rate : (k,) own force per unit of s_i
+    name : str
+        Of the load.
+    height : (n,) array, m
+        Undeformed heights of the points.
+    wrench : (k, n, 6) array
+        Force and moment of each damper at each point, per unit of its own force.
+    rate : (k,) array
+        Own force per unit of s_i.
     """
 
     name: str

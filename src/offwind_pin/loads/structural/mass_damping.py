@@ -51,9 +51,12 @@ class MassDamping(KernelLoad):
 
     Attributes
     ----------
-    name : of the load
-    height : (n,) undeformed heights of the points in m
-    dampers : (n, 6) along x, y, z in N s/m and about them in N m s
+    name : str
+        Of the load.
+    height : (n,) array, m
+        Undeformed heights of the points.
+    dampers : (n, 6) array, N s/m and N m s
+        Along x, y, z and about them.
     """
 
     name: str

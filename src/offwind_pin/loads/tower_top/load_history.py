@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import hashlib
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from offwind_pin.base.definition import Array
+from offwind_pin.base.definition import Array, origin_of
 from offwind_pin.base.errors import InputError
 from offwind_pin.base.number_tables import read_time_columns
 from offwind_pin.loads.point_load import Channel, KernelLoad, force_kernel, no_tangents
@@ -16,6 +15,8 @@ from offwind_pin.loads.point_load import Channel, KernelLoad, force_kernel, no_t
 COMPONENTS = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
 LARGEST_LOAD = 1e10
 """N or N m, beyond the loads of any turbine."""
+_COARSEST, _SAMPLED = 0.99, 1000
+"""Step in s beyond which files of more than so many rows are more likely in ms."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,7 +64,8 @@ class LoadHistory:
 
         Raises
         ------
-        InputError : samples that do not reach from 0 to the end
+        InputError
+            Samples that do not reach from 0 to the end.
         """
         if self.time[0] > 0 or self.time[-1] < end - 1e-9:
             raise InputError(
@@ -133,7 +135,8 @@ def constant_load(yaw_bearing: float, load: Array) -> TowerTopLoad:
 
     Raises
     ------
-    InputError : not six finite numbers
+    InputError
+        Not six finite numbers.
     """
     load = np.asarray(load, dtype=float)
     if load.shape != (6,) or not np.all(np.isfinite(load)):
@@ -155,19 +158,19 @@ def read_load_history(path: Path) -> LoadHistory:
 
     Raises
     ------
-    InputError : missing, empty or truncated file; a cell that is not a number; times that do not
-        rise, or leave a gap; loads beyond those of any turbine
+    InputError
+        Missing, empty or truncated file; a cell that is not a number; times that do not rise, leave
+        a gap, or are not in s; loads beyond those of any turbine.
     """
-    values, lines, text = read_time_columns(path, 7)
-    load = values[:, 1:]
+    table = read_time_columns(path, 7, coarsest=_COARSEST, sampled=_SAMPLED)
+    load = table.values[:, 1:]
     beyond = np.flatnonzero(np.max(np.abs(load), axis=1) > LARGEST_LOAD)
     if len(beyond):
         row = load[beyond[0]]
         raise InputError(
-            f"{path}, line {lines[beyond[0]]}",
+            f"{path}, line {table.lines[beyond[0]]}",
             row[np.argmax(np.abs(row))],
             f"loads below {LARGEST_LOAD:g} N or N m",
             "Are the units N and N m?",
         )
-    digest = hashlib.sha256(text.encode()).hexdigest()
-    return LoadHistory(values[:, 0], load, origin=f"{path.name} (SHA-256 {digest})")
+    return LoadHistory(table.values[:, 0], load, origin_of(path))

@@ -16,10 +16,14 @@ class WindHistory:
 
     Attributes
     ----------
-    interval : between samples in s
-    speed : (n,) in m/s, from time 0 on; after the last sample the first one follows
-    mean : wind speed in m/s whose steady state the rotor starts from
-    origin : where the numbers come from
+    interval : float, s
+        Between samples.
+    speed : (n,) array, m/s
+        From time 0 on; after the last sample the first one follows.
+    mean : float, m/s
+        Wind speed whose steady state the rotor starts from.
+    origin : str
+        Where the numbers come from.
     """
 
     interval: float

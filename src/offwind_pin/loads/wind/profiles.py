@@ -44,7 +44,8 @@ class LogLaw(Definition, kw_only=False):
 
     Attributes
     ----------
-    roughness : float, m, z0; 0.001 and less over water
+    roughness : float, m
+        z0; 0.001 and less over water.
     """
 
     kind: Literal["log_law"] = Field(default="log_law", kw_only=True)
@@ -66,9 +67,12 @@ class ExtremeOperatingGust(Definition, kw_only=False):
 
     Attributes
     ----------
-    size : float, m/s, V_gust
-    start : float, s, when it begins
-    period : float, s, T
+    size : float, m/s
+        V_gust.
+    start : float, s
+        When it begins.
+    period : float, s
+        T.
     """
 
     size: Annotated[Positive, Field(le=60)] = key("size_m_per_s")
@@ -95,7 +99,8 @@ class ExtremeOperatingGust(Definition, kw_only=False):
 
         Raises
         ------
-        InputError : a number that is not positive, or a wind above the extreme one
+        InputError
+            A number that is not positive, or a wind above the extreme one.
         """
         for name, value in (
             ("hub_speed", hub_speed),
@@ -129,8 +134,10 @@ class WindSeries(Definition, kw_only=False):
 
     Attributes
     ----------
-    time : (t,) s, rising
-    departure : (t,) m/s, the same at all heights
+    time : (t,) array, s
+        Rising.
+    departure : (t,) array, m/s
+        The same at all heights.
     """
 
     time: Annotated[Numbers, Field(min_length=2)] = key("time_s")

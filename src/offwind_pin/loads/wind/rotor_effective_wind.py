@@ -51,9 +51,12 @@ class Turbulence:
 
     Attributes
     ----------
-    wind_speed : mean in m/s
-    deviation : standard deviation in m/s
-    scale : Lambda_1 in m, the turbulence scale parameter
+    wind_speed : float, m/s
+        Mean.
+    deviation : float, m/s
+        Standard deviation.
+    scale : float, m
+        Lambda_1, the turbulence scale parameter.
     """
 
     wind_speed: float
@@ -87,7 +90,8 @@ def normal_turbulence(wind_speed: float, turbulence_class: str) -> float:
 
     Raises
     ------
-    InputError : no class A, B or C
+    InputError
+        No class A, B or C.
     """
     if turbulence_class not in TURBULENCE_CLASSES:
         raise InputError(
@@ -102,11 +106,14 @@ class RotorTurbulence:
 
     Attributes
     ----------
-    turbulence : of the wind
-    radius : in m
-    blades : how many
-    rotor_speed : in rad/s
-    root : radius in m where the blades begin to carry thrust
+    turbulence : Turbulence
+        Of the wind.
+    radius : float, m
+    blades : int
+        How many.
+    rotor_speed : float, rad/s
+    root : float, m
+        Radius where the blades begin to carry thrust.
     """
 
     turbulence: Turbulence
@@ -185,13 +192,19 @@ class RotorWind(Definition, kw_only=False):
 
     Attributes
     ----------
-    wind_speed : float, m/s, mean at the hub
-    turbulence_intensity : float, standard deviation over the mean
-    shear_exponent : float, of the power law; 0.14 offshore, 0.2 on land (IEC 61400-3 ed. 1,
-        6.3.1.2; 61400-1 ed. 3, 6.3.1.2)
-    tower_shadow : bool, whether the tower slows the wind in front of it
-    seed : int, of the phases; by default that of the load case, or 1
-    turbulence_class : IEC 61400-1's A, B or C, in place of the turbulence intensity
+    wind_speed : float, m/s
+        Mean at the hub.
+    turbulence_intensity : float or None
+        Standard deviation over the mean.
+    shear_exponent : float
+        Of the power law; 0.14 offshore, 0.2 on land (IEC 61400-3 ed. 1, 6.3.1.2; 61400-1 ed. 3,
+        6.3.1.2).
+    tower_shadow : bool
+        Whether the tower slows the wind in front of it.
+    seed : int or None
+        Of the phases; by default that of the load case, or 1.
+    turbulence_class : {"A", "B", "C"} or None
+        IEC 61400-1's A, B or C, in place of the turbulence intensity.
     """
 
     wind_speed: Annotated[Positive, Field(ge=1, le=60)] = key("wind_speed_m_per_s")
@@ -246,8 +259,9 @@ class RotorWind(Definition, kw_only=False):
 
         Raises
         ------
-        InputError : a dt too coarse for the highest multiple of the blade-passing frequency, a
-            period that is not positive, or a turbine without a table of the rotor speed
+        InputError
+            A dt too coarse for the highest multiple of the blade-passing frequency, a period that
+            is not positive, or a turbine without a table of the rotor speed.
         """
         rotor = self.of_rotor(disc)
         passing = rotor.blade_passing_frequency

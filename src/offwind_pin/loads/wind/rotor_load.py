@@ -16,9 +16,12 @@ class RotorLoad(RotorWind):
 
     Attributes
     ----------
-    control : ``"lagged"`` or ``"instant"``
-    control_time : float, s, with which a lagged thrust coefficient follows the wind
-    inflow_lag : bool, whether the wake follows with a lag of its own
+    control : {"lagged", "instant"}
+        ``"lagged"`` or ``"instant"``.
+    control_time : float, s
+        With which a lagged thrust coefficient follows the wind.
+    inflow_lag : bool
+        Whether the wake follows with a lag of its own.
     """
 
     kind: Literal["rotor"] = "rotor"

@@ -194,14 +194,19 @@ class RotorThrust(KernelLoad):
 
     Attributes
     ----------
-    disc : where the rotor is
-    wind : that it meets; its departure from the mean rises at the start
-    control : ``lagged``: the thrust coefficient is that of the relative wind through a first-order
-        lag, so that to a fast motion rotor speed and pitch stand still, and the damping is
-        rho A Ct U; ``instant``: it is that of the relative wind at once, and the damping is the
-        slope of the thrust curve, negative above rated
-    control_time : of that lag in s
-    inflow_lag : whether the wake follows with a lag of its own
+    disc : RotorDisc
+        Where the rotor is.
+    wind : WindHistory
+        That it meets; its departure from the mean rises at the start.
+    control : {"lagged", "instant"}
+        ``lagged``: the thrust coefficient is that of the relative wind through a first-order lag,
+        so that to a fast motion rotor speed and pitch stand still, and the damping is rho A Ct U;
+        ``instant``: it is that of the relative wind at once, and the damping is the slope of the
+        thrust curve, negative above rated.
+    control_time : float, s
+        Of that lag.
+    inflow_lag : bool
+        Whether the wake follows with a lag of its own.
     """
 
     disc: RotorDisc

@@ -38,10 +38,12 @@ class RotorOperation:
 
     Attributes
     ----------
-    wind_speed, rotor_speed : in m/s and rad/s
-    radius, swept_area : in m and m2
-    power_coefficient, induction, thrust_coefficient : dimensionless
-    thrust, torque : along and about the shaft, in N and N m
+    wind_speed, rotor_speed : float, m/s and rad/s
+    radius, swept_area : float, m and m2
+    power_coefficient, induction, thrust_coefficient : float
+        Dimensionless.
+    thrust, torque : float, N and N m
+        Along and about the shaft.
     """
 
     wind_speed: float
@@ -109,14 +111,19 @@ class SyntheticWind(Definition, kw_only=False):
 
     Attributes
     ----------
-    wind_speed : float, m/s, mean at hub height
-    blade_passing_frequency : float, Hz, 3P
-    turbulence_intensity : float, standard deviation of the wind over its mean
-    harmonics : standard deviation of the thrust at 3P, 6P, 9P over the mean thrust
-    coherent_fraction : float, share of the variance at 3P that is a pure tone (shear and tower
-        shadow); its square that at 6P, its cube that at 9P; the rest is turbulence sampled by the
-        blades
-    seed : int, by default that of the load case, or 1
+    wind_speed : float, m/s
+        Mean at hub height.
+    blade_passing_frequency : float, Hz
+        3P.
+    turbulence_intensity : float
+        Standard deviation of the wind over its mean.
+    harmonics : tuple of float
+        Standard deviation of the thrust at 3P, 6P, 9P over the mean thrust.
+    coherent_fraction : float
+        Share of the variance at 3P that is a pure tone (shear and tower shadow); its square that at
+        6P, its cube that at 9P; the rest is turbulence sampled by the blades.
+    seed : int or None
+        By default that of the load case, or 1.
     """
 
     kind: Literal["synthetic"] = Field(default="synthetic", kw_only=True)
@@ -151,7 +158,8 @@ class SyntheticWind(Definition, kw_only=False):
 
         Raises
         ------
-        InputError : a dt too coarse for the harmonics, or a period that is not positive
+        InputError
+            A dt too coarse for the harmonics, or a period that is not positive.
         """
         _check_sampling(dt, repeat_period)
         rotor = operate_rotor(rna, self.wind_speed, self.blade_passing_frequency)

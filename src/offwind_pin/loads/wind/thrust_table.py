@@ -78,7 +78,8 @@ def thrust_curve(rotor: Turbine | RotorDisc, wind_speeds: Array) -> Array:
 
     Raises
     ------
-    InputError : a turbine without a block ``rotor``
+    InputError
+        A turbine without a block ``rotor``.
     """
     disc = rotor_disc(rotor) if isinstance(rotor, Turbine) else rotor
     table = ThrustTable(disc)

@@ -31,15 +31,21 @@ class TowerWind(Definition, kw_only=False):
 
     Attributes
     ----------
-    speed : float, m/s, mean at the reference height
-    reference_height : float, m, above the still water level
-    profile : :class:`PowerLaw` (by default that of IEC 61400-3-1) or :class:`LogLaw`
-    drag_coefficient : float, of the tower; 0.6 to 0.7 for a smooth one at the Reynolds numbers of a
-        storm
-    direction_deg : float, degrees from +x (downwind) towards +y, towards which it blows
-    gust : :class:`ExtremeOperatingGust`, :class:`WindSeries`, or None for a steady wind. It rises
-        as a simulation starts; statics and modes see the mean
-    air_density : float, kg/m3; IEC 61400-1 takes 1.225
+    speed : float, m/s
+        Mean at the reference height.
+    reference_height : float, m
+        Above the still water level.
+    profile : PowerLaw or LogLaw
+        :class:`PowerLaw` (by default that of IEC 61400-3-1) or :class:`LogLaw`.
+    drag_coefficient : float
+        Of the tower; 0.6 to 0.7 for a smooth one at the Reynolds numbers of a storm.
+    direction_deg : float
+        Degrees from +x (downwind) towards +y, towards which it blows.
+    gust : ExtremeOperatingGust, WindSeries or None
+        :class:`ExtremeOperatingGust`, :class:`WindSeries`, or None for a steady wind. It rises as a
+        simulation starts; statics and modes see the mean.
+    air_density : float, kg/m3
+        IEC 61400-1 takes 1.225.
     """
 
     speed: Annotated[NonNegative, Field(le=90)] = key("speed_m_per_s")

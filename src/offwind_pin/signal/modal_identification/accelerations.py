@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -13,7 +12,7 @@ from numpy.typing import NDArray
 
 from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError
-from offwind_pin.base.number_tables import read_text, to_numbers
+from offwind_pin.base.number_tables import Lines, check_time_unit, parse_number, read_csv
 
 Array = NDArray[np.float64]
 
@@ -21,6 +20,8 @@ STANDARD_GRAVITY = 9.80665
 """m/s2; the value that defines one g (CGPM, 1901)."""
 
 _FEWEST_ROWS = 64
+_COARSEST = 2.0
+"""s; modes of a support structure need shorter steps, so that longer ones are more likely ms."""
 _UNEVEN = 0.01
 """Deviation of a step from the mean one, over it; more is jitter that no spectrum forgives."""
 _G_IN_NAME = re.compile(r"[\s_(\[]m?g[\])]?$", re.IGNORECASE)
@@ -33,9 +34,10 @@ class Accelerations:
 
     Attributes
     ----------
-    time : (n,) in s
-    names : c names of the channels
-    values : (n, c) in m/s2
+    time : (n,) array, s
+    names : tuple of str
+        Tuple of str c names of the channels.
+    values : (n, c) array, m/s2
     """
 
     time: Array
@@ -54,7 +56,8 @@ class Accelerations:
 
         Raises
         ------
-        InputError : a name that is not there
+        InputError
+            A name that is not there.
         """
         missing = [name for name in names if name not in self.names]
         if missing or not names:
@@ -71,25 +74,29 @@ def read_accelerations(path: Path | str, factor: float | None = None) -> Acceler
 
     Parameters
     ----------
-    factor : turns the file's unit into m/s2, such as 9.80665 for g; 1 states that it is m/s2.
-        Without it, channels that look like g are refused
+    factor : float, optional
+        Turns the file's unit into m/s2, such as 9.80665 for g; 1 states that it is m/s2. Without
+        it, channels that look like g are refused.
 
     Raises
     ------
-    InputError : no such file, no header, names twice, a cell that is no finite number, times that
-        do not rise evenly, missing rows, fewer than 64 rows, a channel that does not move, or one
-        that seems to be in g
+    InputError
+        No such file, no header, names twice, a cell that is no finite number, times that do not
+        rise evenly or are not in s, missing rows, fewer than 64 rows, a channel that does not move,
+        or one that seems to be in g.
     """
     path = Path(path)
     if factor is not None and not (np.isfinite(factor) and factor > 0):
         raise InputError("factor", factor, "a positive number", "Give 9.80665 for g.")
-    header, lines, rows = _table(path)
-    if len(rows) < _FEWEST_ROWS:
-        allowed = f"{_FEWEST_ROWS} or more"
-        raise InputError(str(path), f"{len(rows)} rows", allowed, "Is the file complete?")
-    _check_times(path, rows[:, 0], lines)
-    values = rows[:, 1:]
-    for i, name in enumerate(header[1:]):
+    table = read_csv(path, _names)
+    if len(table.values) < _FEWEST_ROWS:
+        allowed = f"a header and {_FEWEST_ROWS} rows or more"
+        received = f"{len(table.values)} rows" if table.names else "no rows"
+        raise InputError(str(path), received, allowed, "Is the file complete?")
+    time, values = table.values[:, 0], table.values[:, 1:]
+    _check_times(path, time, table.lines)
+    check_time_unit(path, table.remarks, time, _COARSEST)
+    for i, name in enumerate(table.names[1:]):
         if np.ptp(values[:, i]) == 0:
             raise InputError(
                 f"{path}, channel {name}",
@@ -99,64 +106,26 @@ def read_accelerations(path: Path | str, factor: float | None = None) -> Acceler
             )
         if factor is None:
             _check_unit(path, name, values[:, i])
-    return Accelerations(rows[:, 0], tuple(header[1:]), values * (factor or 1.0))
+    return Accelerations(time, table.names[1:], values * (factor or 1.0))
 
 
-def _table(path: Path) -> tuple[list[str], list[int], Array]:
-    """Header, line numbers of the rows, and the rows."""
-    kept = [
-        (number, raw.strip())
-        for number, raw in enumerate(read_text(path).splitlines(), 1)
-        if raw.strip() and not raw.strip().startswith("#")
-    ]
-    if not kept:
-        allowed = "a header and rows of numbers"
-        raise InputError(str(path), "no rows", allowed, "Is the file complete?")
-    header = [cell.strip() for cell in next(csv.reader([kept[0][1]]))]
-    _check_header(f"{path}, line {kept[0][0]}", header)
-    lines = [number for number, _ in kept[1:]]
-    texts = [text for _, text in kept[1:]]
-    if not texts:
-        return header, lines, np.empty((0, len(header)))
-    try:
-        rows = np.loadtxt(texts, delimiter=",", ndmin=2)
-    except ValueError:
-        rows = np.empty((0, 0))
-    if rows.shape != (len(texts), len(header)) or not np.all(np.isfinite(rows)):
-        # Slowly, cell by cell: quoted numbers are read, and an error names its line.
-        cells = (next(csv.reader([text])) for text in texts)
-        rows = np.array(
-            [
-                to_numbers(path, line, [cell.strip() for cell in row], len(header))
-                for line, row in zip(lines, cells, strict=True)
-            ]
-        )
-    return header, lines, rows
-
-
-def _check_header(where: str, header: list[str]) -> None:
+def _names(header: list[str], where: str) -> tuple[str, ...]:
+    """Names of the columns, checked."""
     if len(header) < 2:
         raise InputError(
             where, ",".join(header), "time and one channel or more, with commas", "Complete it."
         )
-    numbers = [cell for cell in header if _is_number(cell)]
+    numbers = [cell for cell in header if parse_number(cell) is not None]
     if numbers or "" in header:
         allowed = "a header that names time and channels"
         raise InputError(where, ",".join(header), allowed, "Add names above the numbers.")
     twice = sorted({name for name in header if header.count(name) > 1})
     if twice:
         raise InputError(where, f"{', '.join(twice)} twice", "names of their own", "Rename them.")
+    return tuple(header)
 
 
-def _is_number(cell: str) -> bool:
-    try:
-        float(cell)
-    except ValueError:
-        return False
-    return True
-
-
-def _check_times(path: Path, time: Array, lines: list[int]) -> None:
+def _check_times(path: Path, time: Array, lines: Lines) -> None:
     """Check for even steps; the error names the line, and whether it is a gap."""
     steps = np.diff(time)
     step = float(np.median(steps))

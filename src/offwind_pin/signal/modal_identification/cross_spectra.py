@@ -21,15 +21,20 @@ class CrossSpectra:
 
     Attributes
     ----------
-    frequency : (f,) in Hz, evenly spaced from 0
-    matrix : (f, c, c) Hermitian, in unit^2/Hz; entry (i, j) is the mean of X_i times the conjugate
-        of X_j, so its phase is that by which channel i leads j; the diagonal integrates to the
-        variances
-    segments : number of segments averaged
-    averages : number of independent segments that would scatter as much as these, which overlap
-    window : (n,) weights of one segment
-    sample_rate : in Hz
-    duration : of the record, in s
+    frequency : (f,) array, Hz
+        Evenly spaced from 0.
+    matrix : (f, c, c) complex array, unit^2/Hz
+        Hermitian; entry (i, j) is the mean of X_i times the conjugate of X_j, so its phase is that
+        by which channel i leads j; the diagonal integrates to the variances.
+    segments : int
+        Number of segments averaged.
+    averages : float
+        Number of independent segments that would scatter as much as these, which overlap.
+    window : (n,) array
+        Weights of one segment.
+    sample_rate : float, Hz
+    duration : float, s
+        Of the record.
     """
 
     frequency: Array
@@ -62,16 +67,21 @@ def cross_spectral_matrix(
 
     Parameters
     ----------
-    acceleration : (n, c) samples at equal intervals, a column to each channel
-    sample_rate : in Hz
-    segment_s : length of a segment in s; its inverse is the distance of the spectrum's lines
-    overlap : share of a segment that the next one repeats, 0 to below 1
-    window : name of a window of SciPy
+    acceleration : (n, c) array
+        Samples at equal intervals, a column to each channel.
+    sample_rate : float, Hz
+    segment_s : float, s
+        Length of a segment; its inverse is the distance of the spectrum's lines.
+    overlap : float
+        Share of a segment that the next one repeats, 0 to below 1.
+    window : str
+        Name of a window of SciPy.
 
     Raises
     ------
-    InputError : an array of another shape, numbers that are not finite, a channel that does not
-        move, a segment longer than the record, an overlap or window that cannot be
+    InputError
+        An array of another shape, numbers that are not finite, a channel that does not move, a
+        segment longer than the record, an overlap or window that cannot be.
     """
     samples = _checked(acceleration, sample_rate)
     length = _segment_length(samples, sample_rate, segment_s)

@@ -42,8 +42,10 @@ class Bell:
 
     Attributes
     ----------
-    first, last : numbers of the first and the last line
-    density : (last - first + 1,) one-sided spectrum of the mode in unit^2/Hz
+    first, last : int
+        Numbers of the first and the last line.
+    density : array, unit^2/Hz
+        (last - first + 1,) one-sided spectrum of the mode.
     """
 
     first: int
@@ -63,15 +65,21 @@ def single_mode_bell(
 
     Parameters
     ----------
-    values : (f, c) singular values, falling
-    vectors : (f, c, c) singular vectors in columns
-    peak : line of the peak
-    shape : (c,) singular vector at the peak
-    limits : first and last line that may belong to the bell
+    values : (f, c) array
+        Singular values, falling.
+    vectors : (f, c, c) complex array
+        Singular vectors in columns.
+    peak : int
+        Line of the peak.
+    shape : (c,) complex array
+        Singular vector at the peak.
+    limits : (int, int)
+        First and last line that may belong to the bell.
 
     Raises
     ------
-    InputError : fewer than five lines
+    InputError
+        Fewer than five lines.
     """
     close = vectors[:, :, :_CLOSE]
     alike = np.abs(np.einsum("c,fck->fk", shape.conj(), close)) ** 2 / np.sum(np.abs(shape) ** 2)
@@ -124,7 +132,8 @@ def mode_of_bell(
 
     Raises
     ------
-    InputError : too few half cycles in the range, or a correlation that does not die away
+    InputError
+        Too few half cycles in the range, or a correlation that does not die away.
     """
     function, step = correlation(bell, spectra)
     time, value = extremes(function, step, peak_hz)

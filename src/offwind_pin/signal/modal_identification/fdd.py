@@ -26,8 +26,10 @@ class Peak:
 
     Attributes
     ----------
-    line : its number
-    valleys : lowest lines between it and the peaks beside it, or the ends of the spectrum
+    line : int
+        Its number.
+    valleys : (int, int)
+        Lowest lines between it and the peaks beside it, or the ends of the spectrum.
     """
 
     line: int
@@ -42,13 +44,16 @@ def singular_values(spectra: CrossSpectra) -> tuple[Array, ComplexArray]:
 
     Returns
     -------
-    values : (f, c) in unit^2/Hz, falling
-    vectors : (f, c, c) in columns, of unit length
+    values : (f, c) array, unit^2/Hz
+        Falling.
+    vectors : (f, c, c) complex array
+        In columns, of unit length.
 
     Raises
     ------
-    InputError : fewer segments than channels: the matrix of K segments has K singular values at
-        most, and the rest say nothing
+    InputError
+        Fewer segments than channels: the matrix of K segments has K singular values at most, and
+        the rest say nothing.
     """
     channels = spectra.matrix.shape[1]
     if spectra.segments < channels:
@@ -69,15 +74,20 @@ def pick_peaks(
 
     Parameters
     ----------
-    frequency : (f,) in Hz
-    values : (f,) one singular value
-    band : lowest and highest frequency in Hz
-    prominence_db : height above the higher of the two valleys beside it
+    frequency : (f,) array, Hz
+    values : (f,) array
+        One singular value.
+    band : (float, float), Hz
+        Lowest and highest frequency.
+    prominence_db : float
+        Height above the higher of the two valleys beside it.
 
     Returns
     -------
-    peaks : n peaks
-    prominence : (n,) in dB
+    peaks : list of Peak
+        n peaks.
+    prominence : (n,) array
+        In dB.
     """
     level = _level(values)
     found, about = signal.find_peaks(level, prominence=prominence_db)
@@ -90,7 +100,8 @@ def peaks_near(frequency: Array, values: Array, near: Sequence[float]) -> list[P
 
     Raises
     ------
-    InputError : a frequency beyond the spectrum, no peak near one, or one peak near two
+    InputError
+        A frequency beyond the spectrum, no peak near one, or one peak near two.
     """
     level = _level(values)
     found = []

@@ -27,11 +27,16 @@ class Decrement:
 
     Attributes
     ----------
-    frequency_hz : undamped natural frequency
-    damping_ratio : of critical
-    damping_error : standard error of the ratio out of the scatter about the line
-    used : number of half cycles in the line
-    reached : whether the amplitudes fell to the lower end of the range
+    frequency_hz : float
+        Undamped natural frequency.
+    damping_ratio : float
+        Of critical.
+    damping_error : float
+        Standard error of the ratio out of the scatter about the line.
+    used : int
+        Number of half cycles in the line.
+    reached : bool
+        Whether the amplitudes fell to the lower end of the range.
     """
 
     frequency_hz: float
@@ -47,14 +52,21 @@ class FreeDecay:
 
     Attributes
     ----------
-    frequency_hz : undamped natural frequency of the amplitudes in the range
-    damping_ratio : of critical, over the whole range of amplitudes
-    damping_error : standard error of that ratio out of the scatter about the straight line
-    time : (k,) middle of each half cycle in s, from the largest on
-    amplitude : (k,) half the difference of the two extremes, in the signal's unit
-    local_amplitude : (k - 2,) geometric mean of amplitudes one cycle apart
-    local_damping : (k - 2,) damping ratio of that cycle alone; where damping is not linear it
-        changes with the amplitude
+    frequency_hz : float
+        Undamped natural frequency of the amplitudes in the range.
+    damping_ratio : float
+        Of critical, over the whole range of amplitudes.
+    damping_error : float
+        Standard error of that ratio out of the scatter about the straight line.
+    time : (k,) array, s
+        Middle of each half cycle, from the largest on.
+    amplitude : (k,) array
+        Half the difference of the two extremes, in the signal's unit.
+    local_amplitude : (k - 2,) array
+        Geometric mean of amplitudes one cycle apart.
+    local_damping : (k - 2,) array
+        Damping ratio of that cycle alone; where damping is not linear it changes with the
+        amplitude.
     """
 
     frequency_hz: float
@@ -81,17 +93,21 @@ def free_decay(
 
     Parameters
     ----------
-    values : (n,) samples at equal intervals; what comes before the largest half cycle is left out
-    dt : interval in s
-    frequency_band : lowest and highest frequency in Hz; a Butterworth filter of second order,
-        forwards and backwards, leaves what lies between. The first and the last cycle of a filtered
-        signal are left out
-    amplitude_range : of the amplitudes in the line, over the largest
+    values : (n,) array
+        Samples at equal intervals; what comes before the largest half cycle is left out.
+    dt : float, s
+        Interval.
+    frequency_band : (float, float), Hz, optional
+        Lowest and highest frequency; a Butterworth filter of second order, forwards and backwards,
+        leaves what lies between. The first and the last cycle of a filtered signal are left out.
+    amplitude_range : (float, float)
+        Of the amplitudes in the line, over the largest.
 
     Raises
     ------
-    InputError : no vector of finite numbers, one that does not move, a band or range that cannot
-        be, too few samples in a cycle, too few half cycles, amplitudes that do not fall
+    InputError
+        No vector of finite numbers, one that does not move, a band or range that cannot be, too few
+        samples in a cycle, too few half cycles, amplitudes that do not fall.
     """
     samples = _checked(values, dt)
     upper, lower = checked_range(amplitude_range)
@@ -170,16 +186,21 @@ def decrement(time: Array, amplitude: Array, upper: float, lower: float, where: 
 
     Parameters
     ----------
-    time : (k + 1,) of the extremes in s
-    amplitude : (k,) of the half cycles between them
-    upper, lower : the line starts at the first amplitude not above the one, and ends before the
-        first below the other
-    where : what the error names
+    time : (k + 1,) array, s
+        Of the extremes.
+    amplitude : (k,) array
+        Of the half cycles between them.
+    upper, lower : float
+        The line starts at the first amplitude not above the one, and ends before the first below
+        the other.
+    where : str
+        What the error names.
 
     Raises
     ------
-    InputError : fewer than three amplitudes in the range, or amplitudes that do not fall by more
-        than twice the standard error
+    InputError
+        Fewer than three amplitudes in the range, or amplitudes that do not fall by more than twice
+        the standard error.
     """
     below = np.flatnonzero(amplitude <= upper * (1 + 1e-12))
     first = int(below[0]) if len(below) else len(amplitude)

@@ -43,22 +43,37 @@ class OperationalModes:
 
     Attributes
     ----------
-    frequency_hz : (m,) undamped natural frequencies, out of the zero crossings of the correlation
-    damping_ratio : (m,) of critical, out of its logarithmic decrement
-    damping_error : (m,) standard error of the straight line through the logarithms. Its points
-        share their noise, so it says how straight the decay is rather than how certain the ratio
-    damping_scatter : (m,) standard deviation that records of this length have at least
-    shape : (m, c) real, unit peak
-    complexity : (m,) share of the imaginary part in the squared length of the complex shape
-    complex_shape : (m, c) singular vectors at the peaks, of unit length
-    peak_hz : (m,) lines of the peaks
-    bell_hz : (m, 2) first and last line of each mode's bell
-    names : c names of the channels
-    frequencies : (f,) lines in Hz
-    singular_values : (f, c) in (m/s2)^2/Hz, falling
-    segments : number of segments averaged
-    averages : number of independent segments that would scatter as much
-    cautions : sentences that a reader should see beside the numbers
+    frequency_hz : (m,) array
+        Undamped natural frequencies, out of the zero crossings of the correlation.
+    damping_ratio : (m,) array
+        Of critical, out of its logarithmic decrement.
+    damping_error : (m,) array
+        Standard error of the straight line through the logarithms. Its points share their noise, so
+        it says how straight the decay is rather than how certain the ratio.
+    damping_scatter : (m,) array
+        Standard deviation that records of this length have at least.
+    shape : (m, c) array
+        Real, unit peak.
+    complexity : (m,) array
+        Share of the imaginary part in the squared length of the complex shape.
+    complex_shape : (m, c) complex array
+        Singular vectors at the peaks, of unit length.
+    peak_hz : (m,) array
+        Lines of the peaks.
+    bell_hz : (m, 2) array
+        First and last line of each mode's bell.
+    names : tuple of str
+        c names of the channels.
+    frequencies : (f,) array, Hz
+        Lines.
+    singular_values : (f, c) array, (m/s2)^2/Hz
+        Falling.
+    segments : int
+        Number of segments averaged.
+    averages : float
+        Number of independent segments that would scatter as much.
+    cautions : tuple of str
+        Sentences that a reader should see beside the numbers.
     """
 
     frequency_hz: Array
@@ -104,25 +119,39 @@ def operational_modes(
 
     Parameters
     ----------
-    acceleration : (n, c) in m/s2 at equal intervals, a column to each of two channels or more;
-        those of one direction at a time, where modes of both lie close together
-    sample_rate : in Hz
-    segment_s : length of a segment in s
-    near : frequencies in Hz; the modes are those of the highest lines within a tenth of each
-    count : number of modes, the most prominent peaks; without it and ``near``, all that rise
-    band : lowest and highest frequency in Hz of peaks that are looked for
-    prominence_db : least height of a peak above its valleys
-    singular_value : the singular value whose peaks count; 2 for the weaker one of two modes at
-        nearly the same frequency, whose shapes must be normal to each other
-    mac_limit : least modal assurance of the lines of a bell with its peak
-    amplitude_range : of the correlation function in the decrement, over its value at lag 0
-    overlap, window : of the segments, see ``cross_spectral_matrix``
-    names : of the channels; by default channel 1, channel 2, ...
+    acceleration : (n, c) array, m/s2
+        At equal intervals, a column to each of two channels or more; those of one direction at a
+        time, where modes of both lie close together.
+    sample_rate : float, Hz
+    segment_s : float, s
+        Length of a segment.
+    near : sequence of float, Hz, optional
+        Frequencies; the modes are those of the highest lines within a tenth of each.
+    count : int, optional
+        Number of modes, the most prominent peaks; without it and ``near``, all that rise.
+    band : (float, float), Hz, optional
+        Lowest and highest frequency of peaks that are looked for.
+    prominence_db : float
+        Least height of a peak above its valleys.
+    singular_value : int
+        The singular value whose peaks count; 2 for the weaker one of two modes at nearly the same
+        frequency, whose shapes must be normal to each other.
+    mac_limit : float
+        Least modal assurance of the lines of a bell with its peak.
+    amplitude_range : (float, float)
+        Of the correlation function in the decrement, over its value at lag 0.
+    overlap : float
+        See :func:`cross_spectral_matrix`.
+    window : str
+        See :func:`cross_spectral_matrix`.
+    names : sequence of str, optional
+        Of the channels; by default channel 1, channel 2, ...
 
     Raises
     ------
-    InputError : arrays or settings that cannot be, fewer segments than channels, no peak, or fewer
-        than asked for, or a mode asked for with ``near`` whose bell is too narrow
+    InputError
+        Arrays or settings that cannot be, fewer segments than channels, no peak, or fewer than
+        asked for, or a mode asked for with ``near`` whose bell is too narrow.
     """
     samples = np.asarray(acceleration, dtype=np.float64)
     channels = samples.shape[1] if samples.ndim == 2 else 0

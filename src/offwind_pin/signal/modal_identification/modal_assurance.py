@@ -21,16 +21,20 @@ def modal_assurance(a: ArrayLike, b: ArrayLike) -> Array:
 
     Parameters
     ----------
-    a : (m, c) or (c,) shapes at c sensors, real or complex
-    b : (n, c) or (c,) shapes at the same sensors
+    a : (m, c) or (c,) array_like
+        Mode shapes at c sensors, real or complex.
+    b : (n, c) or (c,) array_like
+        Mode shapes at the same sensors.
 
     Returns
     -------
-    (m, n) numbers from 0 to 1
+    (m, n) array
+        Numbers from 0 to 1.
 
     Raises
     ------
-    InputError : shapes of another number of sensors, one that is zero, or that is no finite number
+    InputError
+        Shapes of another number of sensors, one that is zero, or that is no finite number.
     """
     first, second = _shapes("a", a), _shapes("b", b)
     if first.shape[1] != second.shape[1]:
@@ -50,13 +54,16 @@ def real_shape(vector: ComplexArray) -> tuple[Array, float]:
 
     Parameters
     ----------
-    vector : (c,) of any phase and length
+    vector : (c,) complex array
+        Of any phase and length.
 
     Returns
     -------
-    shape : (c,) real part after the turn, its largest value 1
-    complexity : squared length of the imaginary part that remains over that of the whole: 0 where
-        all sensors move in phase or against it, 1/2 for a wave that runs with equal size in both
+    shape : (c,) array
+        Real part after the turn, its largest value 1.
+    complexity : float
+        Squared length of the imaginary part that remains over that of the whole: 0 where all
+        sensors move in phase or against it, 1/2 for a wave that runs with equal size in both.
     """
     # The turn that makes the sum of squares real and positive leaves least to the imaginary part.
     turned = vector * np.exp(-0.5j * np.angle(np.sum(vector**2)))

@@ -27,11 +27,16 @@ class SoilState:
 
     Attributes
     ----------
-    origin : where it comes from, in words
-    displacement : (n,) largest lateral displacement of each node in m
-    resistance : (n,) p there in N/m
-    secant : (n,) p / y there in N/m2
-    utilisation : (n,) p over the ultimate resistance; not a number where there is none
+    origin : str
+        Where it comes from, in words.
+    displacement : (n,) array, m
+        Largest lateral displacement of each node.
+    resistance : (n,) array, N/m
+        p there.
+    secant : (n,) array, N/m2
+        p / y there.
+    utilisation : (n,) array
+        p over the ultimate resistance; not a number where there is none.
     """
 
     origin: str
@@ -53,8 +58,9 @@ def reached_in_run(turbine: Turbine, soil: SoilSprings, directory: Path) -> Arra
 
     Raises
     ------
-    InputError : no ``results.nc`` there, one that is not of a transient of this turbine on
-        distributed springs, or one that ended in its ramp
+    InputError
+        No ``results.nc`` there, one that is not of a transient of this turbine on distributed
+        springs, or one that ended in its ramp.
     """
     path = directory / "results.nc"
     where = str(path)

@@ -87,19 +87,34 @@ class SoilOverview:
 
     Attributes
     ----------
-    turbine : whose soil it is
-    springs, foundation : its distributed springs as defined and as made
-    lateral : the lateral ones along the pile
-    depth, diameter : (n,) of the nodes in m
-    model : (n,) name of the law of each node's curve
-    state : of the nodes, or None where neither a result nor a load was given
-    pushover : of the pile; it ends early where the soil gives way
-    macro_element : its load in N and rotation in rad at the pushover's displacements, (t, 2)
-    stiffness : (6, 6) at the mudline by name, in N, m, rad
-    fixity : of the turbine's apparent fixity
-    damping : over amplitude and frequency at one node, by model of the damping
-    damping_model : which of them the turbine has, or None
-    remarks : what could not be made, and why
+    turbine : Turbine
+        Whose soil it is.
+    springs : DistributedSprings
+        Its distributed springs as defined.
+    foundation : Foundation
+        The foundation made of them.
+    lateral : SoilSprings
+        The lateral ones along the pile.
+    depth, diameter : (n,) array, m
+        Of the nodes.
+    model : (n,) tuple of str
+        Name of the law of each node's curve.
+    state : SoilState or None
+        Of the nodes, or None where neither a result nor a load was given.
+    pushover : Pushover
+        Of the pile; it ends early where the soil gives way.
+    macro_element : (t, 2) array or None
+        Its load in N and rotation in rad at the pushover's displacements.
+    stiffness : dict of str to array
+        (6, 6) stiffness matrices at the mudline in N, m and rad, by name.
+    fixity : Fixity or None
+        Of the turbine's apparent fixity.
+    damping : dict of str to Dataset
+        Over amplitude and frequency at one node, by model of the damping.
+    damping_model : str or None
+        Which of them the turbine has, or None.
+    remarks : tuple of str
+        What could not be made, and why.
     """
 
     turbine: Turbine
@@ -264,17 +279,23 @@ def soil_overview(
 
     Parameters
     ----------
-    load : (6,) at the yaw bearing in N and N m, under which and gravity the state is found, dry
-    result : directory with ``results.nc`` of a transient on these springs, for the state instead:
-        the largest displacement of each node after the ramp, linear between the recorded heights
-    arm : height in m above the mudline of the pushover's load, by default the yaw bearing's
-    elements : multibody beam elements of the structure in all, for the state under a load
+    load : (6,) array, N and N m, optional
+        At the yaw bearing, under which and gravity the state is found, dry.
+    result : Path, optional
+        Directory with ``results.nc`` of a transient on these springs, for the state instead: the
+        largest displacement of each node after the ramp, linear between the recorded heights.
+    arm : float, m, optional
+        Height above the mudline of the pushover's load, by default the yaw bearing's.
+    elements : int, optional
+        Multibody beam elements of the structure in all, for the state under a load.
 
     Raises
     ------
-    InputError : no pile or no distributed springs, both a load and a result, or a result that
-        cannot be read, has no displacement below the mudline, or is of another turbine
-    SolverError : no equilibrium under the load
+    InputError
+        No pile or no distributed springs, both a load and a result, or a result that cannot be
+        read, has no displacement below the mudline, or is of another turbine.
+    SolverError
+        No equilibrium under the load.
     """
     if load is not None and result is not None:
         raise InputError("load and result", "both", "one of them", "Leave the other out.")

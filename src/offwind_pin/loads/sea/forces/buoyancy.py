@@ -72,11 +72,16 @@ class Buoyancy(KernelLoad):
 
     Attributes
     ----------
-    strips : of the wetted part; the last point is its lower end
-    weight : specific weight rho g in N/m3; negative for water inside, which presses outwards
-    end_area : in m2 of the lower end
-    level : of still water in m
-    water : whose surface wets and leaves strips; None where they stay wet
+    strips : Strips
+        Of the wetted part; the last point is its lower end.
+    weight : float, N/m3
+        Specific weight rho g; negative for water inside, which presses outwards.
+    end_area : float, m2
+        Of the lower end.
+    level : float, m
+        Of still water.
+    water : Water or None
+        Whose surface wets and leaves strips; None where they stay wet.
     """
 
     strips: Strips

@@ -51,16 +51,23 @@ class SteadyWave:
 
     Attributes
     ----------
-    height, depth, gravity : in m and m/s2
-    wave_number : k in rad/m
-    speed : of the crest over the ground in m/s
-    mean_speed : at which the water passes below the crest, at a fixed height, in m/s; the mean
-        velocity over the ground (Eulerian current) is speed - mean_speed
-    volume_flux : below the crest's frame in m2/s; the mean transport velocity over the ground
-        (Stokes current) is speed - volume_flux / depth
-    bernoulli : constant in m2/s2, with the height counted from the mean level
-    surface : (N,) coefficients in m of j = 1 ... N
-    stream : (N,) coefficients in m2/s of j = 1 ... N
+    height, depth, gravity : float, m and m/s2
+    wave_number : float, rad/m
+        k.
+    speed : float, m/s
+        Of the crest over the ground.
+    mean_speed : float, m/s
+        At which the water passes below the crest, at a fixed height; the mean velocity over the
+        ground (Eulerian current) is speed - mean_speed.
+    volume_flux : float, m2/s
+        Below the crest's frame; the mean transport velocity over the ground (Stokes current) is
+        speed - volume_flux / depth.
+    bernoulli : float, m2/s2
+        Constant, with the height counted from the mean level.
+    surface : (N,) array, m
+        Coefficients of j = 1 ... N.
+    stream : (N,) array, m2/s
+        Coefficients of j = 1 ... N.
     """
 
     height: float
@@ -90,17 +97,25 @@ class SteadyWave:
 
         Parameters
         ----------
-        height, depth, length : in m; gravity in m/s2; period in s
-        eulerian_current : mean velocity at heights that are always wet, along the wave, in m/s;
-            0 where no current is given
-        stokes_current : mean transport velocity over the depth in m/s, in its place
-        order : number N of coefficients; by default 16, and twice as many, up to 64, until the
-            last one of the surface is below 1e-5 of the height
+        height, depth : float, m
+        gravity : float, m/s2
+        period : float, s, optional
+            As a fixed observer sees it.
+        length : float, m, optional
+            Given in place of the period.
+        eulerian_current : float, m/s, optional
+            Mean velocity along the wave at heights that are always wet; 0 without a current.
+        stokes_current : float, m/s, optional
+            Mean transport velocity over the depth, in its place.
+        order : int, optional
+            Number N of coefficients; by default 16, and twice as many, up to 64, until the last one
+            of the surface is below 1e-5 of the height.
 
         Raises
         ------
-        InputError : a number is out of its range, both or neither of period and length are given,
-            or both currents; the wave is higher than the highest; the solution does not converge
+        InputError
+            A number is out of its range, both or neither of period and length are given, or both
+            currents; the wave is higher than the highest; the solution does not converge.
         """
         _check(height, depth, gravity, period, length, order)
         if eulerian_current is not None and stokes_current is not None:

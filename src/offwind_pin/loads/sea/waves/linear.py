@@ -20,11 +20,19 @@ class LinearWaves(WaveField):
 
     Attributes
     ----------
-    period, harmonic, elevation, depth, gravity : see :class:`WaveField`; no harmonic is 0
-    direction : (m,) in rad towards which each component travels, from +x towards +y
-    wave_number : (m,) in rad/m
-    carried : (m,) current in m/s along each component that carries it; 0 unless given
-    blocked : share of the variance that an opposing current stopped and that was left out
+    period, depth, gravity : float
+        See :class:`WaveField`.
+    harmonic : (m,) array
+        See :class:`WaveField`; none is 0.
+    elevation : (m,) complex array, m
+        See :class:`WaveField`.
+    direction : (m,) array, rad
+        Towards which each component travels, from +x towards +y.
+    wave_number : (m,) array, rad/m
+    carried : (m,) array or float, m/s
+        Current along each component that carries it; 0 unless given.
+    blocked : float
+        Share of the variance that an opposing current stopped and that was left out.
     """
 
     period: float

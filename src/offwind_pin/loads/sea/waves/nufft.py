@@ -25,9 +25,11 @@ class HarmonicSeries:
 
     Parameters
     ----------
-    period : in s
-    harmonic : (m,) different whole numbers from 0
-    amplitude : (c, m) complex
+    period : float, s
+    harmonic : (m,) array
+        Different whole numbers from 0.
+    amplitude : (c, m) complex array
+        Complex.
 
     The values depend on the time alone, to the last digit, in whatever company it is asked for.
     Beside the largest of a sum's values they are exact to 1e-11. Memory: 4 to 5 numbers for each

@@ -61,9 +61,12 @@ class SecondOrderWaves(WaveField):
 
     Attributes
     ----------
-    linear : the free waves
-    cutoff : in rad/s; components above it stay linear and bind nothing
-    total_acceleration : whether the acceleration has the convective part
+    linear : LinearWaves
+        The free waves.
+    cutoff : float or None, rad/s
+        Components above it stay linear and bind nothing.
+    total_acceleration : bool
+        Whether the acceleration has the convective part.
     bound : (m,) second-order part of the elevation in m
     """
 

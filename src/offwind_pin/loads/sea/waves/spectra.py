@@ -34,8 +34,10 @@ class WaveSpectrum(Definition):
 
     Attributes
     ----------
-    significant_height : float, m, four times the root of its area
-    peak_period : float, s, or None where there is no peak
+    significant_height : float, m
+        Four times the root of its area.
+    peak_period : float, s
+        Or None where there is no peak.
     """
 
     if TYPE_CHECKING:  # fields of some spectra, properties of others
@@ -71,7 +73,8 @@ class JonswapSpectrum(WaveSpectrum, kw_only=False):
     ----------
     significant_height : float, m
     peak_period : float, s
-    peak_shape : float from 1 to 7, or ``"iec"`` for IEC's rule
+    peak_shape : PeakShape
+        Float from 1 to 7, or ``"iec"`` for IEC's rule.
     """
 
     kind: Literal["jonswap"] = Field(default="jonswap", kw_only=True)
@@ -191,17 +194,18 @@ class TableSpectrum(WaveSpectrum, kw_only=False):
 
         Raises
         ------
-        InputError : a file, or a table in it, that cannot be used
+        InputError
+            A file, or a table in it, that cannot be used.
         """
         if self.file is None:
             return np.array(self.frequency), np.array(self.ordinate)
-        rows = [row for _, row in read_numbers(self.file, ("frequency_hz", "density_m2_per_hz"))]
-        frequency, ordinate = zip(*rows, strict=True)
-        fault = _fault_of_table(frequency, ordinate)
+        table = read_numbers(self.file, ("frequency_hz", "density_m2_per_hz"))
+        frequency, ordinate = table.values.T
+        fault = _fault_of_table(tuple(frequency), tuple(ordinate))
         if fault is not None:
             remedy = f"{fault[1][:1].upper()}{fault[1][1:]}."
             raise InputError(str(self.file), fault[0], "", remedy)
-        return np.array(frequency), np.array(ordinate)
+        return frequency, ordinate
 
     @property
     def significant_height(self) -> float:

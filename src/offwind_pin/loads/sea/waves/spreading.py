@@ -17,10 +17,12 @@ class Spreading(Definition, kw_only=False):
 
     Attributes
     ----------
-    kind : ``"cos_2s"`` for cos^(2 s)((theta - mean) / 2) over the whole circle, whose exponent is
-        s (Longuet-Higgins, Cartwright and Smith 1963), or ``"cos_n"`` for cos^n(theta - mean)
-        within 90 degrees, whose exponent is n; DNV-RP-C205, 3.5.8, has both
-    exponent : float, s or n; the larger the narrower
+    kind : {"cos_2s", "cos_n"}
+        ``"cos_2s"`` for cos^(2 s)((theta - mean) / 2) over the whole circle, whose exponent is s
+        (Longuet-Higgins, Cartwright and Smith 1963), or ``"cos_n"`` for cos^n(theta - mean) within
+        90 degrees, whose exponent is n; DNV-RP-C205, 3.5.8, has both.
+    exponent : float
+        s or n; the larger the narrower.
     """
 
     kind: Literal["cos_2s", "cos_n"]

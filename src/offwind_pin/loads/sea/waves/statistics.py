@@ -19,9 +19,12 @@ class WaveMoments:
 
     Attributes
     ----------
-    m0 : variance of the surface in m2
-    m2 : sum of f^2 times the variance of each component, in m2 Hz2
-    peak_period : in s, where the components' variance, averaged over 0.005 Hz, is largest
+    m0 : float, m2
+        Variance of the surface.
+    m2 : float, m2 Hz2
+        Sum of f^2 times the variance of each component.
+    peak_period : float, s
+        Where the components' variance, averaged over 0.005 Hz, is largest.
     """
 
     m0: float

@@ -19,9 +19,11 @@ class StreamFunctionWaves(WaveField):
 
     Parameters
     ----------
-    direction : the wave travels to, in rad from +x towards +y
-    crest_time : in s
-    total_acceleration : False for the local acceleration at a fixed point
+    direction : float, rad
+        Towards which the wave travels, from +x towards +y.
+    crest_time : float, s
+    total_acceleration : bool
+        False for the local acceleration at a fixed point.
     """
 
     exact_surface = True

@@ -28,9 +28,11 @@ class SurfaceWaves:
 
     Attributes
     ----------
-    frequency : (m,) in Hz
-    elevation : (m,) complex amplitudes in m
-    number_x, number_y : (m,) of the wave number vectors in rad/m
+    frequency : (m,) array, Hz
+    elevation : (m,) complex array, m
+        Complex amplitudes.
+    number_x, number_y : (m,) array, rad/m
+        Of the wave number vectors.
     """
 
     frequency: Array

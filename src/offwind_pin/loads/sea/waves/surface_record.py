@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
@@ -18,6 +17,7 @@ from offwind_pin.base.definition import (
     Numbers,
     Positive,
     key,
+    origin_of,
 )
 from offwind_pin.base.errors import InputError
 from offwind_pin.base.number_tables import read_time_columns
@@ -26,6 +26,8 @@ HIGHEST_SURFACE = 40.0
 """m; beyond any sea, but what cm, mm and marks of missing values give."""
 
 FEWEST_SAMPLES = 64
+_COARSEST = 5.0
+"""s, as long as the shortest waves of a sea: longer steps are more likely ms."""
 
 _UNEVEN = 0.02
 """Of a step, by which times rounded in a file may depart from even ones."""
@@ -40,10 +42,13 @@ class SurfaceRecord(Definition, kw_only=False):
     Attributes
     ----------
     dt : float, s
-    elevation : (t,) m
-    origin : str, where the numbers come from
-    start : float, s, the first time of the samples it was made from
-    resampled : bool, whether those were not even
+    elevation : (t,) array, m
+    origin : str
+        Where the numbers come from.
+    start : float, s
+        The first time of the samples it was made from.
+    resampled : bool
+        Whether those were not even.
     """
 
     dt: Positive = key("dt_s")
@@ -63,7 +68,8 @@ class SurfaceRecord(Definition, kw_only=False):
 
         Raises
         ------
-        InputError : too few samples, times that do not rise, numbers that are no elevations in m
+        InputError
+            Too few samples, times that do not rise, numbers that are no elevations in m.
         """
         if len(time) != len(elevation) or len(time) < FEWEST_SAMPLES:
             received = f"{len(time)} times and {len(elevation)} elevations"
@@ -132,10 +138,16 @@ class RecordHarmonics:
 
     Attributes
     ----------
-    harmonic, elevation : (m,) whole numbers, and complex amplitudes in m
-    mean, trend : in m, taken off; the trend over the whole record
-    fade : in s, over which each end was faded
-    left_out : share of the variance beyond the cuts
+    harmonic : (m,) array
+        Whole numbers.
+    elevation : (m,) complex array
+        m Complex amplitudes.
+    mean, trend : float, m
+        Taken off; the trend over the whole record.
+    fade : float, s
+        Over which each end was faded.
+    left_out : float
+        Share of the variance beyond the cuts.
     """
 
     harmonic: Array
@@ -153,10 +165,10 @@ def read_surface_record(path: Path) -> SurfaceRecord:
 
     Raises
     ------
-    InputError : missing, empty or short file; a cell that is not a number; times that do not rise,
-        or leave a gap; elevations beyond any sea
+    InputError
+        Missing, empty or short file; a cell that is not a number; times that do not rise, leave a
+        gap, or are not in s; elevations beyond any sea.
     """
-    values, _, text = read_time_columns(path, 2, fewest=FEWEST_SAMPLES, header=True)
-    digest = hashlib.sha256(text.encode()).hexdigest()
-    origin = f"{path.name} (SHA-256 {digest})"
-    return SurfaceRecord.of(values[:, 0], values[:, 1], origin)
+    table = read_time_columns(path, 2, coarsest=_COARSEST, fewest=FEWEST_SAMPLES, header=True)
+    time, elevation = table.values.T
+    return SurfaceRecord.of(time, elevation, origin_of(path))

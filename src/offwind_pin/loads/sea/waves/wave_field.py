@@ -16,14 +16,19 @@ class WaveField(ABC):
 
     Attributes
     ----------
-    period : s, after which the waves repeat
-    harmonic : (m,) whole numbers from 0 (a mean, such as a return current) upwards
-    elevation : (m,) complex amplitudes of the surface above the mean water level in m
-    wave_number : (m,) in rad/m of free waves of these frequencies, for diffraction
-    depth : from the mudline to the mean water level in m
-    gravity : in m/s2
-    exact_surface : whether the kinematics hold up to the moving surface, and are not to be
-        stretched to it
+    period : float, s
+        After which the waves repeat.
+    harmonic : (m,) array
+        Whole numbers from 0 (a mean, such as a return current) upwards.
+    elevation : (m,) complex array, m
+        Complex amplitudes of the surface above the mean water level.
+    wave_number : (m,) array, rad/m
+        Of free waves of these frequencies, for diffraction.
+    depth : float, m
+        From the mudline to the mean water level.
+    gravity : float, m/s2
+    exact_surface : bool
+        Whether the kinematics hold up to the moving surface, and are not to be stretched to it.
     """
 
     period: float

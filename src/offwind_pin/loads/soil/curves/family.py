@@ -28,8 +28,10 @@ class RockingCurves:
 
     Attributes
     ----------
-    curves : m in N m/m over psi in rad; m / abs(p) in m where ``by_lateral``
-    by_lateral : (n,) whether the curve is to be multiplied by the lateral resistance abs(p) in N/m
+    curves : SoilCurves
+        m in N m/m over psi in rad; m / abs(p) in m where ``by_lateral``.
+    by_lateral : (n,) bool array
+        Whether the curve is to be multiplied by the lateral resistance abs(p).
     """
 
     curves: SoilCurves
@@ -51,7 +53,8 @@ class SoilFamily(ABC, Generic[Kind]):
 
         Raises
         ------
-        InputError : no such curves for this pile
+        InputError
+            No such curves for this pile.
         """
 
     def rocking(self, layer: Kind, nodes: PileNodes, stress: Array) -> RockingCurves | None:
@@ -79,7 +82,8 @@ def register_family(family: SoilFamily[Any]) -> None:
 
     Raises
     ------
-    InputError : another kind of layer has the same name
+    InputError
+        Another kind of layer has the same name.
     """
     register_layer(family.layer)
     _families[family.layer] = family
@@ -90,7 +94,8 @@ def family_of(layer: SoilLayer) -> SoilFamily[Any]:
 
     Raises
     ------
-    InputError : none is registered
+    InputError
+        None is registered.
     """
     if type(layer) not in _families:
         raise InputError(

@@ -28,7 +28,8 @@ def lateral_curves(curve: LateralCurve, nodes: PileNodes) -> SoilCurves:
 
     Raises
     ------
-    InputError : a table that cannot be read, or a pile outside what a family can describe
+    InputError
+        A table that cannot be read, or a pile outside what a family can describe.
     """
     if not isinstance(curve, LayeredGround):
         return soil_curves(curve, nodes.depth)
@@ -45,7 +46,8 @@ def rocking_curves(curve: LateralCurve, nodes: PileNodes) -> tuple[Indices, Rock
 
     Raises
     ------
-    InputError : a pile outside what a family can describe
+    InputError
+        A pile outside what a family can describe.
     """
     if not isinstance(curve, LayeredGround):
         return None

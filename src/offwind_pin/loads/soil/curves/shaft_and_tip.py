@@ -41,7 +41,8 @@ def vertical_curves(springs: DistributedSprings, nodes: PileNodes) -> SoilCurve 
 
     Raises
     ------
-    InputError : a table that cannot be read
+    InputError
+        A table that cannot be read.
     """
     curve, depth = springs.vertical, nodes.depth
     if curve is None:

@@ -8,7 +8,7 @@ import numpy as np
 
 from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError
-from offwind_pin.base.number_tables import read_numbers
+from offwind_pin.base.number_tables import Lines, read_numbers
 from offwind_pin.definitions.soil.springs import CurveTable, LinearModulus, TanhCurve
 from offwind_pin.loads.soil.curves.laws import LinearCurves, PolygonCurves, TanhCurves
 from offwind_pin.loads.soil.curves.soil_curve import ON_BOUNDARY, SoilCurve
@@ -35,9 +35,11 @@ def tabulated_curves(
 
     Raises
     ------
-    InputError : a table that cannot be read, or that has no curve in a layer
+    InputError
+        A table that cannot be read, or that has no curve in a layer.
     """
-    curves = _read_table(path, columns, read_numbers(path, columns))
+    table = read_numbers(path, columns)
+    curves = _by_depth(path, columns, table.lines, table.values)
     grid = np.unique(np.concatenate([[0.0], *(y for y, _ in curves.values())]))
     depths = np.array(sorted(curves))
     loads = np.array([np.interp(grid, *curves[d]) for d in depths])
@@ -64,7 +66,8 @@ def soil_curves(curve: LinearModulus | TanhCurve | CurveTable, depth: Array) -> 
 
     Raises
     ------
-    InputError : a table that cannot be read
+    InputError
+        A table that cannot be read.
     """
     if isinstance(curve, LinearModulus):
         return LinearCurves(curve.modulus.at(depth))
@@ -78,19 +81,21 @@ def tabulated_curve(path: Path, columns: tuple[str, str]) -> SoilCurve:
 
     Raises
     ------
-    InputError : a table that cannot be read
+    InputError
+        A table that cannot be read.
     """
-    rows = [(line, (0.0, *pair)) for line, pair in read_numbers(path, columns)]
-    y, p = _read_table(path, ("depth_m", *columns), rows)[0.0]
+    table = read_numbers(path, columns)
+    values = np.insert(table.values, 0, 0.0, axis=1)
+    y, p = _by_depth(path, ("depth_m", *columns), table.lines, values)[0.0]
     return PolygonCurves(y[None], p[None])
 
 
-def _read_table(
-    path: Path, columns: tuple[str, str, str], rows: list[tuple[int, tuple[float, ...]]]
+def _by_depth(
+    path: Path, columns: tuple[str, str, str], lines: Lines, values: Array
 ) -> dict[float, tuple[Array, Array]]:
     """(y, p) by depth, both from the origin; each fault is reported with its line."""
     by_depth: dict[float, list[tuple[float, float]]] = {}
-    for line, (depth, y, p) in rows:
+    for line, (depth, y, p) in zip(lines, values.tolist(), strict=True):
         where = f"{path}, line {line}"
         if min(depth, y, p) < 0:
             raise InputError(
@@ -121,6 +126,6 @@ def _read_table(
             raise InputError(
                 f"{path}, depth {depth}", points, "two points or more", "Complete the curve."
             )
-        values = np.array(points)
-        curves[depth] = (values[:, 0], values[:, 1])
+        curve = np.array(points)
+        curves[depth] = (curve[:, 0], curve[:, 1])
     return curves

@@ -36,9 +36,12 @@ class Dashpot:
 
     Attributes
     ----------
-    deflection : (b,) rising, in m (or rad), for the ratios
-    secant_time : (b,) beta_s / (pi f_load) in s there, times the secant stiffness
-    initial_time : the same for all deflections, times the initial stiffness
+    deflection : (b,) array, m or rad
+        Rising deflections at which the ratios are given.
+    secant_time : (b,) array, s
+        beta_s / (pi f_load) there, times the secant stiffness.
+    initial_time : float
+        The same for all deflections, times the initial stiffness.
     """
 
     deflection: Array

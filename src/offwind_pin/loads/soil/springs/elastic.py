@@ -40,10 +40,14 @@ class SpringComponent:
 
     Attributes
     ----------
-    deflection, rate, force : first columns
-    size : number of components, whose law sees the length of the vector
-    stiffness, damping : places of the tangents
-    first : first row and column in them
+    deflection, rate, force : int
+        First columns.
+    size : int
+        Number of components, whose law sees the length of the vector.
+    stiffness, damping : int
+        Places of the tangents.
+    first : int
+        First row and column in them.
     """
 
     deflection: int
@@ -177,12 +181,18 @@ class SoilSprings(GroupedLoad):
 
     Attributes
     ----------
-    name : short, unique in a system
-    component : what is resisted; for rotations read moment for force
-    height : (n,) heights of the nodes in m
-    tributary_length : (n,) length of pile of each spring, l_s, in m; 1 at the toe
-    curves : resistance per length over deflection
-    dashpot : beside each spring
+    name : str
+        Short, unique in a system.
+    component : SpringComponent
+        What is resisted; for rotations read moment for force.
+    height : (n,) array, m
+        Heights of the nodes.
+    tributary_length : (n,) array, m
+        Length of pile of each spring, l_s; 1 at the toe.
+    curves : SoilCurves
+        Resistance per length over deflection.
+    dashpot : Dashpot
+        Beside each spring.
     """
 
     name: str

@@ -102,10 +102,13 @@ class FrictionalMoment(GroupedLoad):
 
     Attributes
     ----------
-    height : (n,) heights of the nodes in m
-    tributary_length : (n,) in m
-    lateral : p in N/m over y in m
-    lever : c in m over psi in rad
+    height : (n,) array, m
+        Heights of the nodes.
+    tributary_length : (n,) array, m
+    lateral : SoilCurves
+        p in N/m over y in m.
+    lever : SoilCurves
+        c in m over psi in rad.
     """
 
     height: Array

@@ -217,11 +217,14 @@ def sliders_of(curves: SoilCurves, count: int, name: str = "soil") -> tuple[Arra
 
     Returns
     -------
-    stiffness, limit : (n, count) per length in N/m2 and in m
+    stiffness : (n, count) array, N/m2
+        Per length.
+    limit : (n, count) array, m
 
     Raises
     ------
-    InputError : a curve that falls, or stiffens, with deflection
+    InputError
+        A curve that falls, or stiffens, with deflection.
     """
     n = len(curves)
     stiffness, limit = np.zeros((n, count)), np.full((n, count), np.inf)

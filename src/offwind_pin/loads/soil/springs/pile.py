@@ -52,13 +52,16 @@ def pile_soil(
 
     Parameters
     ----------
-    nodes : depths and diameters
-    height, length : (n,) heights and tributary lengths of the nodes in m, from the mudline down
+    nodes : PileNodes
+        Depths and diameters.
+    height, length : (n,) array, m
+        Heights and tributary lengths of the nodes, from the mudline down.
 
     Raises
     ------
-    InputError : a table that cannot be read, a curve that sliders cannot follow, or a pile outside
-        what a family can describe
+    InputError
+        A table that cannot be read, a curve that sliders cannot follow, or a pile outside what a
+        family can describe.
     """
     loads: list[PointLoad] = []
     toe, whole = height[-1:], np.ones(1)
