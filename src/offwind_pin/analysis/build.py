@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from offwind_pin.analysis.assemble import assemble
-from offwind_pin.analysis.foundation.registry import FOUNDATIONS, make_foundation
+from offwind_pin.analysis.foundation.registry import make_foundation
 from offwind_pin.analysis.structural_damping import damped
 from offwind_pin.base.errors import InputError
 from offwind_pin.definitions.element import Element
@@ -65,17 +65,9 @@ def build(
     def reference(kind: str | None, *, wet: bool) -> System:
         level = 0.0 if sea is None else sea.water_level
         locked = turbine.with_dampers_locked()
-        if kind is not None and kind not in FOUNDATIONS:
-            raise InputError(
-                f"turbine {turbine.name}, field structural_damping.foundation",
-                kind,
-                ", ".join(FOUNDATIONS),
-                "Choose one, or leave it out for the run's own.",
-            )
+        held, division = _locked(system.foundation), elements
         if kind is not None:
-            held, division = make_foundation(locked, kind), None
-        else:
-            held, division = _locked(system.foundation), elements
+            held, division = _named_foundation(locked, kind), None
         return assemble(
             locked,
             held,
@@ -93,3 +85,16 @@ def _locked(foundation: Foundation) -> Foundation:
     if foundation.structure is None:
         return foundation
     return replace(foundation, structure=foundation.structure.with_dampers_locked())
+
+
+def _named_foundation(turbine: Turbine, kind: str) -> Foundation:
+    """The foundation that ratios refer to."""
+    try:
+        return make_foundation(turbine, kind)
+    except InputError as error:
+        raise InputError(
+            f"turbine {turbine.name}, field structural_damping.foundation",
+            kind,
+            f"a foundation that this turbine can have ({error})",
+            "Name another one, or leave it out for the run's own.",
+        ) from None

@@ -57,7 +57,7 @@ class ModalResult:
     damping_ratio : (n,) array
         phi' D phi / (2 omega), of critical; exact for light damping.
     damping_parts : (n, 4) array
-        What structure, soil, water and everything else (loads, tuned mass dampers) contribute to it.
+        What structure, soil, water and the rest (loads, tuned mass dampers) contribute to it.
     damping_asked : (n,) array
         Structural damping ratio that the turbine file asks for; NaN for none.
     label : list of str
