@@ -14,12 +14,11 @@ from selenium.webdriver.common.by import By
 
 import offwind_pin as ow
 from offwind_pin.display.viewer.history_frames import Frames, frames
-from offwind_pin.display.viewer.history_page import time_history_page
+from offwind_pin.display.viewer.history_page import render_time_history
 
 pytestmark = pytest.mark.browser
 
 START, DURATION, LEVEL = 5.0, 15.0, 1.5
-READY = "return !!window.player && player.last !== null"
 
 
 @pytest.fixture(scope="module")
@@ -38,7 +37,7 @@ def shown(results: xr.Dataset) -> Frames:
 @pytest.fixture(scope="module")
 def page(results: xr.Dataset, tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("history") / "history.html"
-    time_history_page(results, path, START, DURATION)
+    path.write_text(render_time_history(results, START, DURATION), encoding="utf-8")
     return path
 
 
@@ -56,7 +55,7 @@ def vertices(driver: webdriver.Chrome, *path: str) -> np.ndarray:
 
 def test_opens_without_errors_or_requests(driver: webdriver.Chrome, page: Path) -> None:
     """From file:// the page works, and asks for nothing but itself and data it holds."""
-    visit = Visit(driver, page.as_uri(), ready=READY)
+    visit = Visit(driver, page.as_uri())
     at(driver, 3.0)
     assert drawn_share(picture(driver)) > 0.02
     visit.collect()
@@ -67,7 +66,7 @@ def test_opens_without_errors_or_requests(driver: webdriver.Chrome, page: Path) 
 
 def test_sea_is_where_the_waves_put_it(driver: webdriver.Chrome, page: Path, shown: Frames) -> None:
     """All points of the surface, at a frame and between two, and the rim of the sides."""
-    Visit(driver, page.as_uri(), ready=READY)
+    Visit(driver, page.as_uri())
     assert shown.sea is not None
     for place, expected in ((20, shown.sea[20]), (20.5, (shown.sea[20] + shown.sea[21]) / 2)):
         at(driver, place * float(shown.time[1] - shown.time[0]))
@@ -87,7 +86,7 @@ def test_structure_is_where_the_results_put_it(
     driver: webdriver.Chrome, page: Path, shown: Frames
 ) -> None:
     """The top ring moves with the yaw bearing, as many times enlarged as chosen."""
-    Visit(driver, page.as_uri(), ready=READY)
+    Visit(driver, page.as_uri())
     for factor in (1, 50):
         driver.execute_script("player.factor = arguments[0]", factor)
         at(driver, float(shown.time[33] - shown.time[0]) + 1e-6)
@@ -100,7 +99,7 @@ def test_structure_is_where_the_results_put_it(
 
 def test_plays_by_itself_until_paused(driver: webdriver.Chrome, page: Path) -> None:
     """Time goes on unasked, the picture changes, and the button stops it."""
-    Visit(driver, page.as_uri(), ready=READY)
+    Visit(driver, page.as_uri())
     wait(driver, "return player.now > 0.5")
     driver.find_element(By.ID, "pause").click()
     stopped = driver.execute_script("return player.now")
@@ -114,7 +113,7 @@ def test_plays_by_itself_until_paused(driver: webdriver.Chrome, page: Path) -> N
 
 def test_card_tells_the_state(driver: webdriver.Chrome, page: Path, shown: Frames) -> None:
     """Time, elevation and moment of a frame stand in the card, and it fits."""
-    Visit(driver, page.as_uri(), ready=READY)
+    Visit(driver, page.as_uri())
     at(driver, float(shown.time[40] - shown.time[0]) + 1e-6)
     card = driver.find_element(By.ID, "card")
     moment = f"{shown.moment[40, 1] / 1e6:.0f}".replace("-", "\u2212")

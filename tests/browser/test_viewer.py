@@ -32,14 +32,13 @@ from selenium.webdriver.support.ui import WebDriverWait
 import offwind_pin as ow
 from offwind_pin.analysis.drawing_data import modes_dataset
 from offwind_pin.display.viewer.history_frames import Frames, frames
-from offwind_pin.display.viewer.history_page import ARROW_SHARE, colour_ramp, time_history_page
-from offwind_pin.display.viewer.mode_frames import Shapes, shapes
+from offwind_pin.display.viewer.history_page import ARROW_SHARE, render_time_history
+from offwind_pin.display.viewer.mode_frames import Shapes, carried, shapes
 from offwind_pin.display.viewer.modes_page import render_modes
+from offwind_pin.display.viewer.scene import colour_ramp
 from offwind_pin.structure.meshes import FACETS
 
 pytestmark = pytest.mark.browser
-
-READY = "return !!window.player && player.last !== null"
 
 
 @pytest.fixture(scope="module")
@@ -93,9 +92,39 @@ def drag(driver: webdriver.Chrome, slider: str, value: float) -> None:
     )
 
 
+def test_logs_would_show_errors_and_requests(driver: webdriver.Chrome, tmp_path: Path) -> None:
+    """Negative control: an error, an image and a socket on another host are all seen."""
+    path = tmp_path / "bad.html"
+    path.write_text(
+        '<img src="http://127.0.0.1:9/picture.png"><script>console.error("wrong");'
+        'fetch("http://127.0.0.1:9/data").catch(() => 0); new WebSocket("ws://127.0.0.1:9/");</script>'
+    )
+    visit = Visit(driver, path.as_uri(), ready="")
+
+    def all_seen(_: webdriver.Chrome) -> bool:
+        visit.collect()
+        return len(visit.requested) >= 4 and any("wrong" in error for error in visit.errors)
+
+    # Nobody serves that port: the requests fail, but they were made.
+    WebDriverWait(driver, PATIENCE).until(all_seen)
+    assert {"http:127.0.0.1", "ws:127.0.0.1"} <= visit.places()
+    assert not visit.places() <= {"file:", "data:", "blob:"}
+
+
+def test_page_forbids_requests(driver: webdriver.Chrome, page: Path) -> None:
+    """Even a script that tried to reach out from the page would be stopped by the browser."""
+    Visit(driver, page.as_uri())
+    outcome = driver.execute_async_script(
+        "const done = arguments[arguments.length - 1];"
+        "document.addEventListener('securitypolicyviolation', e => done(e.effectiveDirective));"
+        "fetch('http://127.0.0.1:9/').catch(() => 0);"
+    )
+    assert outcome == "connect-src"
+
+
 class TestModes:
     def test_opens_without_errors_or_requests(self, driver: webdriver.Chrome, page: Path) -> None:
-        visit = Visit(driver, page.as_uri(), ready=READY)
+        visit = Visit(driver, page.as_uri())
         stop(driver, 1.0)
         assert drawn_share(picture(driver)) > 0.02
         visit.collect()
@@ -106,7 +135,7 @@ class TestModes:
     def test_four_stand_side_by_side_with_their_numbers(
         self, driver: webdriver.Chrome, page: Path, shown: Shapes
     ) -> None:
-        Visit(driver, page.as_uri(), ready=READY)
+        Visit(driver, page.as_uri())
         assert labels(driver) == ["FA1", "SS1", "FA2", "SS2"]
         places = driver.execute_script(
             "return player.places.map(place => place.root.position.toArray())"
@@ -127,7 +156,7 @@ class TestModes:
         self, driver: webdriver.Chrome, page: Path, shown: Shapes, label: str
     ) -> None:
         """Alone and at its peak each mode has every ring where its shape puts it, colour and all."""
-        Visit(driver, page.as_uri(), ready=READY)
+        Visit(driver, page.as_uri())
         driver.find_element(By.ID, "beside").click()
         press(driver, label)
         assert labels(driver) == [label]
@@ -144,6 +173,16 @@ class TestModes:
         assert_allclose(found[:, 0] - found.mean(axis=1), first, atol=2e-3)
         seat = driver.execute_script("return player.places[0].rna.position.toArray()")
         assert_allclose(seat, centre[-1], atol=2e-3)
+        springs = shown.springs[i]
+        ends, _ = carried(shown.motion_at(springs.height)[i], springs.height, springs.offset)
+        middle, along = springs.symbols(ends)
+        drawn = driver.execute_script(
+            "return player.places[0].springs.map(spring => [spring.position.toArray(),"
+            " spring.position.clone().set(spring.scale.x, 0, 0).applyQuaternion(spring.quaternion)"
+            ".toArray()])"
+        )
+        assert len(middle) > 10
+        assert_allclose(np.array(drawn), np.stack([middle, along], axis=1), atol=2e-3)
         colour = driver.execute_script(
             "return Array.from(player.places[0].wall.geometry.attributes.color.array)"
         )
@@ -155,7 +194,7 @@ class TestModes:
     def test_one_more_beside_the_others_and_one_less(
         self, driver: webdriver.Chrome, page: Path
     ) -> None:
-        Visit(driver, page.as_uri(), ready=READY)
+        Visit(driver, page.as_uri())
         press(driver, "T1")
         assert labels(driver) == ["SS1", "FA2", "SS2", "T1"]
         press(driver, "FA2")
@@ -167,7 +206,7 @@ class TestModes:
 
     def test_amplitude_and_time(self, driver: webdriver.Chrome, page: Path, shown: Shapes) -> None:
         """Twice the amplitude is twice the way; the slider runs over one cycle of the slowest."""
-        Visit(driver, page.as_uri(), ready=READY)
+        Visit(driver, page.as_uri())
         driver.find_element(By.ID, "pause").click()
         slowest = shown.frequency_hz[[shown.index(label) for label in labels(driver)]].min()
         top = []
@@ -182,7 +221,7 @@ class TestModes:
         assert top[1] == pytest.approx(2 * top[0], rel=1e-3)
 
     def test_plays_until_paused_and_on(self, driver: webdriver.Chrome, page: Path) -> None:
-        Visit(driver, page.as_uri(), ready=READY)
+        Visit(driver, page.as_uri())
         wait(driver, "return player.now > 0.2")
         pause = driver.find_element(By.ID, "pause")
         pause.click()
@@ -198,7 +237,7 @@ class TestModes:
     def test_stripes_show_the_turning(
         self, driver: webdriver.Chrome, page: Path, shown: Shapes
     ) -> None:
-        Visit(driver, page.as_uri(), ready=READY)
+        Visit(driver, page.as_uri())
         driver.find_element(By.ID, "beside").click()
         press(driver, "T1")
         period = 1 / shown.frequency_hz[shown.index("T1")]
@@ -211,9 +250,9 @@ class TestModes:
     def test_card_fits(self, driver: webdriver.Chrome, page: Path, width: int, height: int) -> None:
         driver.set_window_size(width, height)
         try:
-            Visit(driver, page.as_uri(), ready=READY)
+            Visit(driver, page.as_uri())
             card = driver.find_element(By.ID, "card")
-            assert "A surrogate is at work here" in card.text
+            assert "Surrogate data" in card.text
             assert driver.execute_script(
                 "const box = arguments[0].getBoundingClientRect();"
                 "return box.left >= 0 && box.top >= 0 && box.right <= innerWidth"
@@ -241,7 +280,7 @@ def moved(results: xr.Dataset) -> Frames:
 @pytest.fixture(scope="module")
 def history(results: xr.Dataset, tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("history") / "history.html"
-    time_history_page(results, path, 4.0, 8.0)
+    path.write_text(render_time_history(results, 4.0, 8.0), encoding="utf-8")
     return path
 
 
@@ -249,7 +288,7 @@ class TestHistory:
     def test_slider_moves_the_structure(
         self, driver: webdriver.Chrome, history: Path, moved: Frames
     ) -> None:
-        visit = Visit(driver, history.as_uri(), ready=READY)
+        visit = Visit(driver, history.as_uri())
         driver.find_element(By.ID, "pause").click()
         factor = driver.execute_script("return player.factor")
         for share in (0.25, 0.75):
@@ -266,7 +305,7 @@ class TestHistory:
         self, driver: webdriver.Chrome, history: Path, moved: Frames
     ) -> None:
         """Direction and length of the load at the top and of each node of the soil."""
-        Visit(driver, history.as_uri(), ready=READY)
+        Visit(driver, history.as_uri())
         k = 17
         driver.execute_script(
             "player.playing = false; showAt(arguments[0])",
@@ -294,7 +333,7 @@ class TestHistory:
         self, driver: webdriver.Chrome, history: Path, moved: Frames
     ) -> None:
         """Where rings lie at recorded heights, and nowhere once it is switched off."""
-        Visit(driver, history.as_uri(), ready=READY)
+        Visit(driver, history.as_uri())
         k = 11
         driver.execute_script(
             "player.playing = false; showAt(arguments[0])",
@@ -316,7 +355,7 @@ class TestHistory:
         assert np.ptp(colour, axis=0).max() < 1e-6
 
     def test_speed(self, driver: webdriver.Chrome, history: Path) -> None:
-        Visit(driver, history.as_uri(), ready=READY)
+        Visit(driver, history.as_uri())
         step = (
             "player.playing = true; player.last = 1000; player.now = 0; const next = player.tick;"
             "const frame = window.requestAnimationFrame; window.requestAnimationFrame = () => 0;"
@@ -335,8 +374,9 @@ class TestHistory:
     ) -> None:
         """What is not there is not missed."""
         data = ow.simulate(ow.build(undamped, "clamped", elements=6), 2.0, 0.05)
-        time_history_page(data, tmp_path / "dry.html", 0.0, 2.0)
-        visit = Visit(driver, (tmp_path / "dry.html").as_uri(), ready=READY)
+        path = tmp_path / "dry.html"
+        path.write_text(render_time_history(data, 0.0, 2.0), encoding="utf-8")
+        visit = Visit(driver, path.as_uri())
         drag(driver, "time", 0.5)
         assert drawn_share(picture(driver)) > 0.02
         assert not driver.find_element(By.ID, "load").is_displayed()
@@ -376,7 +416,7 @@ def test_served_page_asks_nobody_else(
     """Over http the page shows what was asked for, without errors."""
     _, url = live
     assert urlsplit(url).hostname == "127.0.0.1"
-    visit = Visit(driver, url, ready=READY)
+    visit = Visit(driver, url)
     assert labels(driver) == ["SS2", "T1"]
     stop(driver, 0.1)
     assert drawn_share(picture(driver)) > 0.02

@@ -19,7 +19,6 @@ from offwind_pin.base.whole_files import write_netcdf
 pytestmark = pytest.mark.browser
 
 VIZ = Path(__file__).resolve().parents[2] / "viz"
-READY = "return !!window.player && player.last !== null"
 
 Script = Callable[..., str]
 
@@ -53,7 +52,7 @@ def script() -> Iterator[Script]:
 def check_moving(driver: webdriver.Chrome, url: str) -> None:
     """The page loads from this computer only, draws its scene, and the scene changes in time."""
     assert urlsplit(url).hostname == "127.0.0.1"
-    visit = Visit(driver, url, ready=READY)
+    visit = Visit(driver, url)
     driver.execute_script("player.playing = false")
     driver.execute_script("player.show(0.0)")
     first = picture(driver)

@@ -16,7 +16,7 @@ from selenium.webdriver.support.ui import WebDriverWait
 PATIENCE = 120.0
 """Seconds to wait for what takes a few: the machine may be small, busy and without graphics."""
 
-_MODE_MOVES = "return !!window.viewer && viewer.animator.actions.length > 0"
+_PLAYS = "return !!window.player && player.last !== null"
 
 Image = NDArray[np.float64]
 
@@ -28,7 +28,7 @@ class Visit:
     errors : messages on its console that are errors; requested : URLs that it asked for
     """
 
-    def __init__(self, driver: webdriver.Chrome, url: str, *, ready: str = _MODE_MOVES) -> None:
+    def __init__(self, driver: webdriver.Chrome, url: str, *, ready: str = _PLAYS) -> None:
         for log in ("browser", "performance"):
             driver.get_log(log)
         driver.get(url)

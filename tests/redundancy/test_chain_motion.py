@@ -7,13 +7,13 @@ import pinocchio as pin
 import pytest
 from helpers.numerics import relative_difference
 from helpers.point_loads import Probe
+from helpers.poses import body_poses
 from helpers.states import State
 from numpy.typing import NDArray
 
 import offwind_pin as ow
 from offwind_pin.dynamics.compiled.chain import CompiledChain
 from offwind_pin.dynamics.reference.chain_kinematics import AxisPoints
-from offwind_pin.dynamics.reference.poses import body_poses
 from offwind_pin.loads.point_load import PointMotion
 
 Array = NDArray[np.float64]

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from helpers.poses import body_poses
 from numpy.testing import assert_allclose
 
 import offwind_pin as ow
@@ -78,3 +79,28 @@ def test_number_of_modes_is_checked(coupled_wet: ow.System, result: ow.ModalResu
             ow.modes(coupled_wet, n)
     with pytest.raises(ow.InputError, match="FA1"):
         result.index("FA9")
+
+
+@pytest.mark.parametrize("name", ["clamped_dry", "coupled_wet", "distributed_wet"])
+def test_small_motion_is_the_modal_shape(request: pytest.FixtureRequest, name: str) -> None:
+    """Differences of poses along a modal vector are the mode's displacements and rotations."""
+    system: ow.System = request.getfixturevalue(name)
+    equilibrium = ow.static(system)
+    modes = ow.modes(system, 5, about=equilibrium)
+    lever = modes.height - system.chain.origin
+    step = 1e-4
+    for index in range(5):
+        vector = step * modes.vector[:, index]
+        fore, aft = (body_poses(system, equilibrium.q + s * vector) for s in (1, -1))
+        centre = body_poses(system, equilibrium.q)
+        rate = (fore - aft) / (2 * step)
+        moved = rate[:, :3, 3] + lever[:, None] * rate[:, :3, 2]
+        spin = rate[:, :3, :3] @ centre[:, :3, :3].transpose(0, 2, 1)
+        turned = np.stack([spin[:, 2, 1], spin[:, 0, 2], spin[:, 1, 0]], axis=1)
+        shape = modes.mass_normalised[index]
+        size = np.abs(shape[:, :3]).max()
+        assert_allclose(moved, shape[:, :3], rtol=0, atol=1e-6 * size)
+        assert_allclose(turned, shape[:, 3:], rtol=0, atol=1e-6 * np.abs(shape[:, 3:]).max())
+        # Negative control: the neighbouring mode is no match at this tolerance.
+        other = modes.mass_normalised[(index + 1) % 5]
+        assert np.abs(moved - other[:, :3]).max() > 0.1 * size

@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
+from helpers.poses import body_poses
 from numpy.testing import assert_allclose
 from numpy.typing import NDArray
 
 import offwind_pin as ow
-from offwind_pin.dynamics.reference.poses import body_poses
 
 Array = NDArray[np.float64]
 FX, FY, FZ, MX, MY, MZ = range(6)

@@ -67,8 +67,44 @@ def static_dataset(system: System, state: StaticResult) -> xr.Dataset:
 
 def modes_dataset(system: System, result: ModalResult) -> xr.Dataset:
     """Natural modes with their provenance and the data that a picture of them needs."""
-    attributes = system_attributes(system) | drawing_attributes(system)
-    return result.to_dataset().assign(outline(system)).assign_attrs(attributes)
+    attributes = system_attributes(system) | drawing_attributes(system) | _root(system)
+    drawn = outline(system) | _springs(system) | _strokes(system, result)
+    return result.to_dataset().assign(drawn).assign_attrs(attributes)
+
+
+def _root(system: System) -> dict[str, str]:
+    return {"root": "fixed" if system.foundation.root is None else "flexible"}
+
+
+def _springs(system: System) -> Constants:
+    """Heights of the lateral soil springs of a pile, if there are any."""
+    soil = soil_springs(system)
+    if soil is None:
+        return {}
+    about = {"long_name": "height of the soil spring", "units": "m"}
+    return {"spring_height": ("spring", soil.height, about)}
+
+
+def _strokes(system: System, result: ModalResult) -> dict[str, Any]:
+    """Heights of tuned mass dampers, and their strokes in each mode along x, y, z."""
+    masses = system.chain.tuned_masses
+    if not masses:
+        return {}
+    stroke = np.zeros((len(result.label), len(masses), 3))
+    sliding = iter(result.vector[system.chain.axis_joints :])
+    for d, mass in enumerate(masses):
+        for joint in mass.joints:
+            stroke[:, d, "xyz".index(joint[1])] = next(sliding)
+    about = {"long_name": "stroke with unit modal mass", "units": "kg^-1/2"}
+    return {
+        "damper": ("damper", [mass.name for mass in masses], {"long_name": "tuned mass damper"}),
+        "damper_height": (
+            "damper",
+            np.array([mass.height for mass in masses]),
+            {"long_name": "height", "units": "m"},
+        ),
+        "damper_stroke": (("mode", "damper", "direction"), stroke, about),
+    }
 
 
 def outline(system: System) -> Constants:
@@ -116,9 +152,6 @@ def structure_dataset(system: System) -> xr.Dataset:
             "kg",
         ),
     }
-    soil = soil_springs(system)
-    if soil is not None:
-        variables["spring_height"] = ("spring", soil.height, "height of the soil spring", "m")
     dampers = turbine.tuned_mass_dampers
     if dampers:
         frequency = [np.sqrt(mass.stiffness / mass.mass) / (2 * np.pi) for mass in dampers]
@@ -149,11 +182,11 @@ def structure_dataset(system: System) -> xr.Dataset:
             "yaw_bearing_m": chain.top,
             "water_depth_m": turbine.site.water_depth,
             "degrees_of_freedom": system.nv,
-            "root": "fixed" if system.foundation.root is None else "flexible",
+            **_root(system),
             "sea_in_words": sea_in_words(system),
             "surface": "calm" if waves is None else "waves",
         },
-    )
+    ).assign(_springs(system))
     if dampers:
         names = [mass.name for mass in dampers]
         data = data.assign_coords(damper=("damper", names, {"long_name": "tuned mass damper"}))

@@ -270,19 +270,13 @@ def animate_command(
     element: ElementOption = "euler_bernoulli",
     dry: Annotated[bool, typer.Option("--dry", help="Without water.")] = False,  # noqa: FBT002
 ) -> None:
-    """Write a self-contained page with a mode moving."""
-    from offwind_pin.analysis.build import build
-    from offwind_pin.analysis.modal import modes
+    """Write a self-contained page with one mode moving; others can be selected in it."""
     from offwind_pin.base.whole_files import write_text
-    from offwind_pin.definitions.reader import load_turbine
-    from offwind_pin.display.viewer.mode_page import animate
-    from offwind_pin.loads.sea.sea import StillWater
+    from offwind_pin.display.viewer.view import View
 
     _check_target("--html", html, "fa2.html")
-    system = build(
-        load_turbine(turbine), foundation, None if dry else StillWater(), element=element
-    )
-    write_text(html, animate(system, modes(system, min(12, system.nv)), mode.upper()))
+    results = _modes_of(turbine, foundation, dry=dry, element=element)
+    write_text(html, View(results, labels=[mode.upper()]).page())
     typer.echo(f"Wrote {html}")
 
 
@@ -316,7 +310,7 @@ def view_command(
     from offwind_pin.base.whole_files import write_text
     from offwind_pin.cases.output_directory import check_writable
     from offwind_pin.cli.progress import frames_progress
-    from offwind_pin.display.viewer.stills import check_frames, check_still
+    from offwind_pin.display.viewer.picture import check_frames, check_still
     from offwind_pin.display.viewer.view import FPS, View
     from offwind_pin.viewer import serve
 
@@ -356,12 +350,7 @@ def _results_of(source: str, foundation: str, *, dry: bool, modal: bool) -> xr.D
 
     modal : whether modes are asked for, which a time history may have in a group
     """
-    from offwind_pin.analysis.build import build
-    from offwind_pin.analysis.drawing_data import modes_dataset
-    from offwind_pin.analysis.modal import modes
     from offwind_pin.base.errors import InputError
-    from offwind_pin.definitions.reader import load_turbine
-    from offwind_pin.loads.sea.sea import StillWater
     from offwind_pin.results.reading import open_results
     from offwind_pin.results.tree import part
 
@@ -378,8 +367,22 @@ def _results_of(source: str, foundation: str, *, dry: bool, modal: bool) -> xr.D
             f"({', '.join(shipped_turbines())}), or a turbine's YAML file",
             "Check the path; offwind run makes results.",
         )
-    system = build(load_turbine(source), foundation, None if dry else StillWater())
-    return modes_dataset(system, modes(system, min(10, system.nv)))
+    return _modes_of(source, foundation, dry=dry)
+
+
+def _modes_of(
+    turbine: str, foundation: str, *, dry: bool, element: Element = "euler_bernoulli"
+) -> xr.Dataset:
+    """The first twelve modes of a turbine."""
+    from offwind_pin.analysis.build import build
+    from offwind_pin.analysis.drawing_data import modes_dataset
+    from offwind_pin.analysis.modal import modes
+    from offwind_pin.definitions.reader import load_turbine
+    from offwind_pin.loads.sea.sea import StillWater
+
+    sea = None if dry else StillWater()
+    system = build(load_turbine(turbine), foundation, sea, element=element)
+    return modes_dataset(system, modes(system, min(12, system.nv)))
 
 
 @app.command()

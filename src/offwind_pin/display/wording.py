@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
 from offwind_pin.analysis.foundation.registry import FOUNDATIONS
 
@@ -113,3 +114,9 @@ def sentence(text: str) -> str:
     """First letter large, full stop at the end."""
     text = text.strip()
     return text[:1].upper() + text[1:] + ("" if text.endswith((".", "!", "?")) else ".")
+
+
+def surrogate_notes(attributes: Mapping[str, object]) -> list[str]:
+    """What results say of each surrogate that they were computed with."""
+    notes = str(attributes.get("surrogates", "none")).split(" | ")
+    return [note for note in notes if note not in {"", "none"}]

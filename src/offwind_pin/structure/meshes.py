@@ -11,8 +11,7 @@ from offwind_pin.base.definition import Array
 from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.structure.chain import Chain, NDArrayInt
 from offwind_pin.structure.frustum import Frustum
-from offwind_pin.structure.section import frusta, outer_diameter
-from offwind_pin.structure.tuned_mass import TunedMass
+from offwind_pin.structure.section import frusta
 
 FACETS = 32
 """Sides of what is round. Normals are smoothed around it, so that few suffice."""
@@ -77,9 +76,14 @@ def body_meshes(turbine: Turbine, chain: Chain) -> dict[str, Mesh]:
     return result
 
 
-def damper_disc(turbine: Turbine, mass: TunedMass) -> tuple[float, float]:
-    """Radius and thickness in m of the disc that stands for a tuned mass damper in pictures."""
-    diameter = float(outer_diameter(turbine, np.array([mass.height]))[0])
+def damper_disc(diameter: float) -> tuple[float, float]:
+    """Radius and thickness in m of the disc that represents a tuned mass damper in pictures.
+
+    Parameters
+    ----------
+    diameter : float, m
+        Of the structure at the damper's height.
+    """
     return _DISC[0] * diameter, _DISC[1] * diameter
 
 
@@ -115,11 +119,6 @@ def hollow_frustum(base: float, shell: Frustum) -> Mesh:
     ]
     pairs = zip(rims, [*rims[1:], rims[0]], strict=True)
     return Mesh.combine([loft(np.array(pair), capped=False) for pair in pairs])
-
-
-def disc(radius: float, z: float, facets: int = 4 * FACETS) -> Mesh:
-    """Horizontal disc without thickness, facing up."""
-    return _fan(circle(radius, z, facets))
 
 
 def circle(radius: float, z: float, facets: int = FACETS) -> Array:

@@ -167,7 +167,8 @@ def _tuned_mass(robot: ET.Element, turbine: Turbine, chain: Chain, mass: TunedMa
         link = ET.SubElement(robot, "link", name=child)
     _inertial(link, mass.mass, np.zeros(3), np.zeros((3, 3)))
     visual = ET.SubElement(link, "visual")
-    radius, thickness = damper_disc(turbine, mass)
+    diameter = float(outer_diameter(turbine, np.array([mass.height]))[0])
+    radius, thickness = damper_disc(diameter)
     disc = {"radius": _text(radius), "length": _text(thickness)}
     ET.SubElement(ET.SubElement(visual, "geometry"), "cylinder", disc)
     ET.SubElement(visual, "material", name="damper_red")

@@ -430,6 +430,7 @@ class TestWording:
     def test_modes(self) -> None:
         assert mode_name("FA2") == "second fore-aft"
         assert mode_name("T1") == "first torsion"
+        assert mode_name("V11") == "11th vertical"
         assert [is_mode(name) for name in ("SS12", "3P", "wave peak", "FA0")] == [True] + 3 * [
             False
         ]

@@ -17,11 +17,13 @@ import offwind_pin as ow
 from offwind_pin.analysis.drawing_data import modes_dataset, static_dataset
 from offwind_pin.base.mode_labels import mode_family
 from offwind_pin.base.whole_files import write_netcdf
-from offwind_pin.display.viewer import stills as pictures
+from offwind_pin.display.viewer import picture as pictures
 from offwind_pin.display.viewer.history_frames import frames
 from offwind_pin.display.viewer.history_page import ARROW_SHARE, TOP_COLOUR
+from offwind_pin.display.viewer.history_picture import HistoryPicture
 from offwind_pin.display.viewer.mode_frames import PEAK_TILT, shapes
-from offwind_pin.display.viewer.stills import HistoryPicture, ModesPicture, write_frames
+from offwind_pin.display.viewer.modes_picture import ModesPicture
+from offwind_pin.display.viewer.picture import write_frames
 from offwind_pin.display.viewer.view import View
 
 

@@ -21,6 +21,7 @@ from offwind_pin.display.wording import (
     relative_difference,
     sentence,
     significant_digits,
+    surrogate_notes,
 )
 
 if TYPE_CHECKING:
@@ -118,8 +119,8 @@ def surrogates(report: CaseReport) -> list[Surrogate]:
             sentence(text),
             "give the real history as seven columns: t, Fx, Fy, Fz, Mx, My, Mz in s, N and N m.",
         )
-        for text in str(attributes.get("surrogates", "none")).split(" | ")
-        if text not in ("none", "", soil)
+        for text in surrogate_notes(attributes)
+        if text != soil
     ]
     return found
 

@@ -6,7 +6,16 @@ class Place {
     this.wall = find("wall", "<object>");
     this.wall.frustumCulled = false;
     this.rna = find("rna");
+    this.dampers = modes.damper_height.map((_, d) => find("damper", String(d)));
+    this.springs = modes.spring_height.map((_, s) => {
+      const symbol = find("spring"), spring = s ? symbol.clone() : symbol;
+      this.root.add(spring);
+      return spring;
+    });
     this.rest = this.wall.geometry.attributes.position.array.slice();
+    this.turn = this.rna.quaternion.clone();
+    this.point = this.rna.position.clone();
+    this.axis = this.point.clone();
     this.tag = document.querySelectorAll(".tag")[number];
     this.mode = null;
   }
@@ -31,29 +40,71 @@ class Place {
     this.tag.append(name, " " + frequency(mode) + ", " + damping(mode));
   }
 
+  // How the axis turns where it moves so: [x, y, z, rx, ry, rz] at the peak, times a factor.
+  turnAs(motion, factor) {
+    this.axis.set(motion[3], motion[4], motion[5]);
+    const angle = factor * this.axis.length();
+    if (angle) this.axis.normalize(); else this.axis.set(0, 0, 1);
+    this.turn.setFromAxisAngle(this.axis, angle);
+  }
+
+  // Where that motion takes a point at rest beside the axis at a height, once it has turned.
+  carry(motion, factor, height, x, y, z) {
+    this.point.set(x, y, z).applyQuaternion(this.turn);
+    this.point.x += factor * motion[0];
+    this.point.y += factor * motion[1];
+    this.point.z += height + factor * motion[2];
+    return this.point;
+  }
+
   // The shape times a factor: centres of rings move linearly, rings turn about them as they are.
   show(factor) {
-    const place = this.wall.geometry.attributes.position, turn = this.rna.quaternion.clone();
-    const point = this.rna.position.clone(), axis = point.clone();
-    modes.motion[this.mode].forEach((motion, ring) => {
+    const place = this.wall.geometry.attributes.position, motions = modes.motion[this.mode];
+    motions.forEach((motion, ring) => {
       const height = modes.height[ring];
-      axis.set(motion[3], motion[4], motion[5]);
-      const angle = factor * axis.length();
-      turn.setFromAxisAngle(axis.length() > 0 ? axis.normalize() : axis.set(0, 0, 1), angle);
+      this.turnAs(motion, factor);
       for (let i = 3 * ring * modes.facets; i < 3 * (ring + 1) * modes.facets; i += 3) {
-        point.set(this.rest[i], this.rest[i + 1], this.rest[i + 2] - height).applyQuaternion(turn);
-        place.array[i] = point.x + factor * motion[0];
-        place.array[i + 1] = point.y + factor * motion[1];
-        place.array[i + 2] = point.z + height + factor * motion[2];
-      }
-      if (ring === modes.height.length - 1) {
-        this.rna.position.set(factor * motion[0], factor * motion[1], height + factor * motion[2]);
-        this.rna.quaternion.copy(turn);
-        this.rna.updateMatrix();
+        this.carry(motion, factor, height, this.rest[i], this.rest[i + 1], this.rest[i + 2] - height);
+        place.array[i] = this.point.x;
+        place.array[i + 1] = this.point.y;
+        place.array[i + 2] = this.point.z;
       }
     });
     place.needsUpdate = true;
     this.wall.geometry.computeVertexNormals();
+    const last = motions.length - 1;
+    this.seat(this.rna, this.carry(motions[last], factor, modes.height[last], 0, 0, 0));
+    this.showDampers(factor);
+    this.showSprings(factor);
+  }
+
+  seat(part, point) {
+    part.position.copy(point);
+    part.quaternion.copy(this.turn);
+    part.updateMatrix();
+  }
+
+  showDampers(factor) {
+    this.dampers.forEach((damper, d) => {
+      const motion = modes.damper_motion[this.mode][d], stroke = modes.damper_stroke[this.mode][d];
+      this.turnAs(motion, factor);
+      this.seat(damper, this.carry(motion, factor, modes.damper_height[d], ...stroke.map(part => factor * part)));
+    });
+  }
+
+  // A symbol lies along x about its middle; it is never turned over, so that it does not flicker.
+  showSprings(factor) {
+    this.springs.forEach((spring, s) => {
+      const motion = modes.spring_motion[this.mode][s], anchor = modes.spring_anchor[this.mode][s];
+      this.turnAs(motion, factor);
+      const end = this.carry(motion, factor, modes.spring_height[s], ...modes.spring_offset[this.mode][s]);
+      const along = this.axis.set(...anchor).negate().add(end), length = along.length();
+      along.multiplyScalar(Math.sign(along.x + along.y + along.z) / length);
+      spring.quaternion.setFromUnitVectors(spring.position.set(1, 0, 0), along);
+      spring.scale.set(length, 1, 1);
+      spring.position.set(...anchor).add(end).multiplyScalar(0.5);
+      spring.updateMatrix();
+    });
   }
 }
 

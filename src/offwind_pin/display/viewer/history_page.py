@@ -3,41 +3,39 @@
 from __future__ import annotations
 
 import base64
-from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
 import numpy as np
 import xarray as xr
-from markupsafe import Markup
 from numpy.typing import NDArray
 
 from offwind_pin.base.definition import Array
-from offwind_pin.base.whole_files import write_text
-from offwind_pin.display.report.templates import environment
-from offwind_pin.display.rotor_nacelle import rotor_nacelle
+from offwind_pin.display.rotor_nacelle import assembly
 from offwind_pin.display.viewer.history_frames import Frames, frames, outline
-from offwind_pin.display.viewer.meshcat_recorder import Recorder, viewer_licence, viewer_script
+from offwind_pin.display.viewer.meshcat_recorder import Recorder
 from offwind_pin.display.viewer.scene import (
-    COLOUR_MAP,
+    FIELD_OF_VIEW_DEG,
     MUDLINE_COLOUR,
+    PLAIN,
+    RING,
     RNA_COLOUR,
     WATER_COLOUR,
+    colour_ramp,
+    css,
     light,
+    ramp_gradient,
     set_mesh,
+    view_direction,
 )
-from offwind_pin.display.wording import MINUS, fixed, foundation_name, number
+from offwind_pin.display.wording import fixed, foundation_name, number, surrogate_notes
 from offwind_pin.structure.meshes import Mesh, circle, loft
-from offwind_pin.structure.rotor import rna_meshes
 
 DURATION = 60.0
 """s of a page, unless told otherwise."""
 
-_FIELD_OF_VIEW_DEG = 24.0
 _VIEW_DEG = (-122.0, 11.0)
 """Azimuth of the camera from the x axis, and its elevation."""
-_RING = 2.5
-"""Largest distance in m of the rings of the wall."""
 _FACTORS = (1, 2, 5, 10, 20, 50, 100)
 """By which displacements may be drawn larger than they are."""
 SEA_COLOURS = np.array([[20, 72, 128], [61, 143, 209], [214, 238, 250]]) / 255
@@ -49,20 +47,11 @@ ARROW_SHARE = 0.24
 _ARROW_FACETS = 10
 TOP_COLOUR, SOIL_COLOUR = 0xD55E00, 0x8C1D40
 TOP_WIDTH, SOIL_WIDTH = 0.006, 0.0012
-PLAIN = np.array([0xE9, 0xEC, 0xEF]) / 255
-"""Of the wall where no moment colours it."""
 _SPEEDS = (0.25, 0.5, 1, 2, 5, 10)
 _LEVEL = 1e-3
 """Half the range of a curve, over its largest value, below which it counts as constant."""
 _CHART = (276, 34)
 """Breadth and height of a curve in the card."""
-
-
-def time_history_page(
-    results: xr.Dataset, html: Path, start: float = 0.0, duration: float = DURATION
-) -> None:
-    """Write :func:`render_time_history` into a file, whole or not at all."""
-    write_text(html, render_time_history(results, start, duration))
 
 
 def render_time_history(results: xr.Dataset, start: float = 0.0, duration: float = DURATION) -> str:
@@ -91,33 +80,27 @@ def render_time_history(results: xr.Dataset, start: float = 0.0, duration: float
     scene = draw_scene(recorder.visualizer(), results, shown)
     wet = results.attrs.get("sea") != "dry"
     level = float(results.attrs.get("water_level_m", 0.0))
-    told = str(results.attrs.get("surrogates", "none"))
-    return (
-        environment()
-        .get_template("history.html")
-        .render(
-            turbine=str(results.attrs["turbine"]),
-            foundation=foundation_name(str(results.attrs["foundation"])),
-            case=str(results.attrs.get("case", "time history")),
-            waves=str(results.attrs.get("waves", "")) if wet else "",
-            water=f"sea, mean level {fixed(level, 2, sign=level != 0)} m" if wet else "",
-            sea_gradient=", ".join(mpl.colors.to_hex(colour) for colour in SEA_COLOURS),
-            left_out=shown.sea is None and bool(np.any(shown.elevation)),
-            surrogates=[text for text in told.split(" | ") if text not in ("", "none")],
-            speeds=_SPEEDS,
-            loads=_loads_in_words(results, shown),
-            factors=_FACTORS,
-            factor=displacement_factor(shown),
-            charts=_charts(shown),
-            mudline_colour=f"#{MUDLINE_COLOUR:06x}",
-            breadth=_CHART[0],
-            height=_CHART[1],
-            motion=_motion(shown, level) | scene,
-            look=history_look(results, shown),
-            commands=[base64.b64encode(command).decode() for command in recorder.commands],
-            licence=Markup(viewer_licence().replace("*/", "* /")),  # noqa: S704 (from the package)
-            viewer_script=Markup(viewer_script()),  # noqa: S704 (from the package)
-        )
+    return recorder.page(
+        "history.html",
+        turbine=str(results.attrs["turbine"]),
+        foundation=foundation_name(str(results.attrs["foundation"])),
+        case=str(results.attrs.get("case", "time history")),
+        waves=str(results.attrs.get("waves", "")) if wet else "",
+        water=f"sea, mean level {fixed(level, 2, sign=level != 0)} m" if wet else "",
+        sea_gradient=", ".join(mpl.colors.to_hex(colour) for colour in SEA_COLOURS),
+        left_out=shown.sea is None and bool(np.any(shown.elevation)),
+        surrogates=surrogate_notes(results.attrs),
+        speeds=_SPEEDS,
+        gradient=ramp_gradient(),
+        loads=_loads_in_words(results, shown),
+        factors=_FACTORS,
+        factor=displacement_factor(shown),
+        charts=_charts(shown),
+        mudline_colour=css(MUDLINE_COLOUR),
+        breadth=_CHART[0],
+        height=_CHART[1],
+        motion=_motion(shown, level) | scene,
+        look=history_look(results, shown),
     )
 
 
@@ -135,11 +118,11 @@ def draw_scene(view: Any, results: xr.Dataset, shown: Frames) -> dict[str, Any]:
         surface that are the rim; ``soil_radius``, where the soil's arrows begin, in m.
     """
     light(view)
-    height, radius = outline(results, _RING)
+    height, radius = outline(results, RING)
     rings = np.array([circle(r, z) for z, r in zip(height, radius, strict=True)])
     wall = loft(rings, capped=False)
     set_mesh(view["structure"]["wall"], wall, np.tile(PLAIN, (len(wall.vertices), 1)))
-    for name, mesh in rna_meshes(rotor_nacelle(results), 2 * float(radius[-1])).items():
+    for name, mesh in assembly(results, 2 * float(radius[-1])).items():
         set_mesh(view["structure"]["rna"][name], mesh, RNA_COLOUR)
     draw_arrows(view, shown)
     mudline = float(results.attrs["mudline_m"])
@@ -257,25 +240,18 @@ def largest(values: Array) -> float:
     return float(sizes.max(initial=0.0))
 
 
-def colour_ramp() -> Array:
-    """(64, 3) red, green and blue of shares from 0 to 1."""
-    return np.round(mpl.colormaps[COLOUR_MAP](np.linspace(0, 1, 64))[:, :3], 4)
-
-
 def _loads_in_words(results: xr.Dataset, shown: Frames) -> dict[str, str]:
     """What colours and arrows mean, and how large their largest is."""
     bending, top, soil = (
         largest(part) for part in (shown.bending, shown.top_force, shown.soil_force)
     )
-    steps = ", ".join(mpl.colors.to_hex(colour) for colour in colour_ramp()[::4])
     return {
-        "gradient": steps,
         "bending": f"{number(bending / 1e6, 3)} MN m",
         "top": f"applied tower-top load, at most {number(top / 1e6, 3)} MN" if top else "",
-        "top_colour": f"#{TOP_COLOUR:06x}",
+        "top_colour": css(TOP_COLOUR),
         "top_note": str(results.attrs.get("tower_top_load_holds", "")),
         "soil": f"soil on the pile, at most {number(soil / 1e6, 3)} MN a node" if soil else "",
-        "soil_colour": f"#{SOIL_COLOUR:06x}",
+        "soil_colour": css(SOIL_COLOUR),
     }
 
 
@@ -283,46 +259,49 @@ def _packed(values: Array, kind: str) -> str:
     return base64.b64encode(np.ascontiguousarray(values, dtype=kind).tobytes()).decode()
 
 
+def curves(shown: Frames) -> list[tuple[str, Array]]:
+    """Names and values (f,) of the curves beside the scene."""
+    channels = [("surface at the axis, m", shown.elevation)] if np.any(shown.elevation) else []
+    channels.append(("tower top along x, m", shown.displacement[:, -1, 0]))
+    if np.any(shown.top_force):
+        component = int(np.argmax(np.abs(shown.top_force).max(axis=0)))
+        name = f"tower-top load along {'xyz'[component]}, MN"
+        channels.append((name, shown.top_force[:, component] / 1e6))
+    channels.append(("mudline moment My, MN m", shown.moment[:, 1] / 1e6))
+    return channels
+
+
+def range_in_words(values: Array) -> str:
+    """Smallest and largest value."""
+    return f"{number(float(values.min()), 3)} to {number(float(values.max()), 3)}"
+
+
 def _charts(shown: Frames) -> list[dict[str, str]]:
     """Curves of the card: name, range and the points of a polyline, upright in its frame."""
-    channels = [("tower top along x, m", shown.displacement[:, -1, 0])]
-    if np.any(shown.elevation):
-        channels.insert(0, ("surface at the axis, m", shown.elevation))
-    if np.any(shown.top_force):
-        channels.append(top_curve(shown))
-    channels.append(("fore-aft moment, MN m", shown.moment[:, 1] / 1e6))
     result = []
-    for name, values in channels:
+    for name, values in curves(shown):
         low, high = float(values.min()), float(values.max())
         # what hardly changes is drawn as a level line, not as its rounding
         half = max((high - low) / 2, _LEVEL * max(abs(low), abs(high)), 1e-12)
         across = np.linspace(0, _CHART[0], len(values))
         up = (_CHART[1] / 2 - 2) * (1 - (values - (low + high) / 2) / half) + 2
         points = " ".join(f"{x:.1f},{y:.1f}" for x, y in zip(across, up, strict=True))
-        span = f"{low:.3g} to {high:.3g}".replace("-", MINUS)
-        result.append({"name": name, "range": span, "points": points})
+        result.append({"name": name, "range": range_in_words(values), "points": points})
     return result
-
-
-def top_curve(shown: Frames) -> tuple[str, Array]:
-    """Name and values (f,) in MN of the component of the tower-top load that grows largest."""
-    component = int(np.argmax(np.abs(shown.top_force).max(axis=0)))
-    return f"tower-top load along {'xyz'[component]}, MN", shown.top_force[:, component] / 1e6
 
 
 def history_look(results: xr.Dataset, shown: Frames) -> dict[str, Any]:
     """Where the camera stands, for the page's script: directions as numbers, lengths in m."""
-    meshes = rna_meshes(rotor_nacelle(results), 6.0)
+    meshes = assembly(results, 6.0)
     points = np.concatenate([mesh.vertices for mesh in meshes.values()])
     azimuth, elevation = np.radians(_VIEW_DEG)
-    level = np.cos(elevation)
     # The corner of the mudline nearest to the camera appears below its middle, and enlarged.
     corner = float(shown.x[-1]) * (abs(np.cos(azimuth)) + abs(np.sin(azimuth)))
     ground = float(results.attrs["mudline_m"]) - 1.5 * corner * np.sin(elevation)
     low, high = min(float(shown.height[0]), ground), float(shown.height[-1] + points[:, 2].max())
     return {
-        "field_of_view_deg": _FIELD_OF_VIEW_DEG,
-        "from": [level * np.cos(azimuth), level * np.sin(azimuth), np.sin(elevation)],
+        "field_of_view_deg": FIELD_OF_VIEW_DEG,
+        "from": view_direction(*_VIEW_DEG).tolist(),
         "centre": (low + high) / 2,
         "half_height": 1.05 * (high - low) / 2,
         "half_breadth": max(float(np.abs(points[:, :2]).max()), 0.65 * float(np.ptp(shown.x))),

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from offwind_pin.base.definition import Array
 from offwind_pin.structure.meshes import Mesh
@@ -88,6 +89,18 @@ def paint(camera: Camera, surfaces: Sequence[Surface]) -> tuple[Array, Array]:
         depths.append(seen[shown, :, 2].mean(axis=1))
     order = np.argsort(-np.concatenate(depths), kind="stable")
     return np.concatenate(corners)[order], np.concatenate(colours)[order]
+
+
+def smallest_turn(start: Array, direction: Array) -> Array:
+    """(3, 3) the smallest rotation of an axis (3,) into a direction (3,) of any length."""
+    along = direction / np.linalg.norm(direction)
+    axis = np.cross(start, along)
+    sine = np.linalg.norm(axis)
+    if sine < 1e-12:  # either is the same, or the opposite, by half a turn about any normal
+        axis = np.cross(start, np.roll(start, 1))
+        sine = np.linalg.norm(axis)
+    angle = np.arccos(np.clip(start @ along, -1.0, 1.0))
+    return np.asarray(Rotation.from_rotvec(angle * axis / sine).as_matrix())
 
 
 def _brightness(normal: Array) -> Array:

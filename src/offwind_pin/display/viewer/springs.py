@@ -1,117 +1,128 @@
-"""Springs of a foundation as things to draw: each between a fixed anchor and a body."""
+"""Springs of a foundation and tuned mass dampers as things to draw, from results alone."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
+import xarray as xr
 
-from offwind_pin.analysis.foundation.study.state import soil_springs
 from offwind_pin.base.definition import Array
-from offwind_pin.dynamics.system import System
-from offwind_pin.loads.soil.springs.elastic import SoilSprings
-from offwind_pin.structure.meshes import Mesh, tube
-from offwind_pin.structure.section import outer_diameter
+from offwind_pin.structure.meshes import Mesh, circle, damper_disc, loft, tube
 
-_X, _Y, _Z = np.eye(3)
+_REACH = 0.045
+"""Length of a spring at rest over the height of the structure."""
 _CLOSEST = 0.022
-"""Least distance between drawn soil springs over the structure's height."""
+"""Smallest distance between drawn soil springs over the height of the structure."""
+_UP = np.array([0.0, 0.0, 1.0])
 
 
-@dataclass(frozen=True)
-class Spring:
-    """A spring from ``anchor`` (3,) to the point ``tip`` (3,) in the frame of ``body``, in m.
+@dataclass(frozen=True, eq=False)
+class Springs:
+    """Springs between fixed anchors and points that move with the axis.
 
-    rest_length : distance between the two in the undeformed structure, in m
+    Attributes
+    ----------
+    height : (s,) array, m
+        At which the axis carries the moving ends.
+    offset : (s, 3) array, m
+        Of the moving ends at rest from the axis.
+    anchor : (s, 3) array, m
     """
 
-    name: str
+    height: Array
+    offset: Array
     anchor: Array
-    body: int
-    tip: Array
-    rest_length: float
 
-    def stretch(self, poses: Array) -> tuple[Array, Array]:
-        """How the spring lies at poses (f, N + 1, 4, 4) of the bodies.
+    def symbols(self, ends: Array) -> tuple[Array, Array]:
+        """Middle and direction of each spring, as long as the spring.
+
+        The directions have a positive sum of components, so that a symbol never turns over.
+
+        Parameters
+        ----------
+        ends : (s, 3) array, m
+            The moving ends.
 
         Returns
         -------
-        rotation : (f, 3, 3) array
-            That turns x along the spring.
-        length : (f,) array, m
+        middle, direction : (s, 3) array, m
         """
-        pose = poses[:, self.body]
-        span = pose[:, :3, :3] @ self.tip + pose[:, :3, 3] - self.anchor
-        length = np.linalg.norm(span, axis=1)
-        along = span / length[:, None]
-        # The windings lie in the vertical plane of the spring; a vertical one has no such plane.
-        side = np.cross(_Z if abs(along[0, 2]) < 0.7 else _X, along)
-        side /= np.linalg.norm(side, axis=1, keepdims=True)
-        return np.stack([along, side, np.cross(along, side)], axis=2), length
+        along = ends - self.anchor
+        return (ends + self.anchor) / 2, along * np.sign(along.sum(axis=1, keepdims=True))
 
 
-def foundation_springs(system: System, lateral: Array) -> list[Spring]:
-    """Springs that hold a structure, in the directions that matter for a mode.
+def foundation_springs(results: xr.Dataset, height: Array, radius: Array, plane: Array) -> Springs:
+    """Springs that restrain a structure, in the directions that matter for a mode.
 
     Along the pile a pair at each soil node, thinned by :func:`node_step`; at the foot of a chain
-    whose root moves, one vertical spring, and two pairs where no soil acts along the pile.
+    with a flexible root one vertical spring, and two pairs where no soil acts along the pile.
 
     Parameters
     ----------
-    lateral : (3,) array
+    results : Dataset
+        Natural modes.
+    height, radius : (r,) array, m
+        Of the rings of the wall.
+    plane : (3,) array
         Horizontal unit vector in the plane of the motion.
     """
-    chain = system.chain
-    reach = 0.045 * (chain.top - chain.base)
-    result: list[Spring] = []
-    soil = soil_springs(system)
-    if soil is not None:
-        for height in soil.height[:: node_step(soil, chain.top - chain.base)]:
-            result.extend(_pair(system, float(height), lateral, reach))
-    if system.foundation.root is not None:
-        if not result:
-            for direction in (lateral, np.cross(_Z, lateral)):
-                result.extend(_pair(system, chain.base, direction, 1.3 * reach))
-        anchor = np.array([0.0, 0.0, chain.base - reach])
-        result.append(Spring("vertical", anchor, 0, np.zeros(3), reach))
-    return result
+    size = float(height[-1] - height[0])
+    reach = _REACH * size
+    levels, directions = np.zeros(0), [plane]
+    flexible = results.attrs["root"] == "flexible"
+    if "spring_height" in results:
+        nodes = np.asarray(results.spring_height.values, dtype=float)
+        levels = nodes[:: node_step(nodes, size)]
+    elif flexible:
+        levels, directions = height[:1], [plane, np.cross(_UP, plane)]
+    ends = [
+        (level, inner * sign * direction, (inner + reach) * sign * direction + level * _UP)
+        for level, inner in zip(levels, np.interp(levels, height, radius), strict=True)
+        for direction in directions
+        for sign in (1, -1)
+    ]
+    if flexible:
+        ends.append((height[0], np.zeros(3), (height[0] - reach) * _UP))
+    at, offset, anchor = zip(*ends, strict=True) if ends else ((), (), ())
+    return Springs(np.array(at), np.array(offset).reshape(-1, 3), np.array(anchor).reshape(-1, 3))
 
 
-def node_step(soil: SoilSprings, structure_height: float) -> int:
-    """How many soil nodes lie from one drawn spring to the next, so that they can be distinguished.
+def node_step(nodes: Array, structure_height: float) -> int:
+    """Number of soil nodes from one drawn spring to the next, so that they can be distinguished.
 
     It divides the pile evenly: the first and the last node are always drawn.
     """
     closest = _CLOSEST * structure_height
-    gaps = len(soil.height) - 1
+    gaps = len(nodes) - 1
     steps = (step for step in range(1, gaps + 1) if gaps % step == 0)
-    spacing = abs(soil.height[-1] - soil.height[0]) / gaps
-    return next((step for step in steps if step * spacing >= closest), gaps)
+    spacing = abs(nodes[-1] - nodes[0]) / max(gaps, 1)
+    return next((step for step in steps if step * spacing >= closest), max(gaps, 1))
 
 
-def zigzag(length: float, width: float, radius: float, windings: int = 4) -> Mesh:
-    """Symbol of a spring: a bent rod along x from the origin, in m.
+def spring_symbol(results: xr.Dataset, size: float) -> Mesh:
+    """Symbol of a spring of length 1 along x about the origin, for a structure ``size`` m high."""
+    width = 0.011 if "spring_height" in results else 0.022
+    return zigzag(width * size, 0.0014 * size)
 
-    length : from end to end; width : of the bends; radius : of the rod
+
+def zigzag(width: float, radius: float, windings: int = 4) -> Mesh:
+    """A rod bent in the x-z plane, of length 1 along x about the origin.
+
+    Parameters
+    ----------
+    width, radius : float, m
+        Of the bends and of the rod.
     """
-    bends = length * np.linspace(0.2, 0.8, 2 * windings + 1)
+    bends = np.linspace(-0.3, 0.3, 2 * windings + 1)
     side = np.zeros(2 * windings + 1)
     side[1:-1:2], side[2:-1:2] = width / 2, -width / 2
-    x = np.concatenate([[0.0], bends, [length]])
+    x = np.concatenate([[-0.5], bends, [0.5]])
     z = np.concatenate([[0.0], side, [0.0]])
     return tube(np.column_stack([x, np.zeros_like(x), z]), radius)
 
 
-def _pair(system: System, height: float, direction: Array, reach: float) -> Iterator[Spring]:
-    """Two springs on opposite sides of the structure at one height."""
-    chain = system.chain
-    body = int(chain.body_at(np.array([height]))[0])
-    radius = float(outer_diameter(system.turbine, np.array([height]))[0]) / 2
-    rise = (height - chain.origin[body]) * _Z
-    axis = "x" if abs(direction[0]) > abs(direction[1]) else "y"
-    for sign, side in ((1, "plus"), (-1, "minus")):
-        outwards = sign * direction
-        anchor = (radius + reach) * outwards + height * _Z
-        name = f"{axis}_{side}_{height:.3f}".replace(".", "_")
-        yield Spring(name, anchor, body, radius * outwards + rise, reach)
+def damper_mesh(diameter: float) -> Mesh:
+    """Disc of a tuned mass damper about the origin, wider than the structure around it."""
+    radius, thickness = damper_disc(diameter)
+    return loft(np.array([circle(radius, -thickness / 2), circle(radius, thickness / 2)]))

@@ -12,11 +12,11 @@ from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError
 from offwind_pin.display.viewer.history_frames import frames
 from offwind_pin.display.viewer.history_page import DURATION, render_time_history
+from offwind_pin.display.viewer.history_picture import HistoryPicture
 from offwind_pin.display.viewer.mode_frames import shapes
 from offwind_pin.display.viewer.modes_page import PLACES, render_modes
-from offwind_pin.display.viewer.stills import (
-    HistoryPicture,
-    ModesPicture,
+from offwind_pin.display.viewer.modes_picture import ModesPicture
+from offwind_pin.display.viewer.picture import (
     Picture,
     Progress,
     check_frames,

@@ -1,4 +1,4 @@
-"""Where the rigid bodies of a system are, for drawing."""
+"""Where the rigid bodies of a system are, by Pinocchio."""
 
 from __future__ import annotations
 
@@ -34,13 +34,3 @@ def body_poses(system: System, q: Array) -> Array:
     if not chain.free_root:
         poses[0, 2, 3] = chain.base
     return poses
-
-
-def sliding_mass_poses(system: System, q: Array) -> Array:
-    """(D, 4, 4) poses of the masses of tuned mass dampers, turned as their carriers are."""
-    import pinocchio as pin
-
-    model, data = system.pin_model, system.scratch.data
-    pin.forwardKinematics(model, data, q)
-    joints = [model.getJointId(mass.joint_names[-1]) for mass in system.chain.tuned_masses]
-    return np.array([data.oMi[joint].homogeneous for joint in joints]).reshape(-1, 4, 4)
