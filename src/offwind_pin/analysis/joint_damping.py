@@ -16,8 +16,10 @@ from offwind_pin.structure.chain import Chain
 
 PLANES = ("SS", "FA", "T")
 
-_NO_SHARE = 1e-6
-"""Share of a mode's stiffness below which a factor is rounding for it."""
+_STILL = 0.01
+"""Share of a mode's potential energy in all joints below which they cannot damp it."""
+_SMALL = 1e-3
+"""The same of a region, below which its factor is not to be found from a mode."""
 _EVENNESS = 1e-4
 """Weight of equal factors in all regions, where the ratios asked for leave a choice."""
 
@@ -78,21 +80,18 @@ def calibrate(system: System, result: ModalResult, ratios: Mapping[str, float]) 
             columns.append(joint_ratios(system, result, factor.of(system.chain).ravel())[index])
             owner.append(unknown)
     matrix = np.array(columns).T
-    omega = 2 * np.pi * result.frequency_hz[index]
-    seen = (2 * matrix / omega[:, None]).max(axis=0) > _NO_SHARE
-    if not np.all(matrix[:, seen].any(axis=1)):
-        missed = [
-            label for label, row in zip(ratios, matrix[:, seen], strict=True) if not row.any()
-        ]
+    share = matrix / (np.pi * result.frequency_hz[index])[:, None]
+    still = [label for label, of in zip(ratios, share.sum(axis=1), strict=True) if of < _STILL]
+    if still:
         raise InputError(
             f"turbine {system.turbine.name}, field structural_damping.ratios_of_critical",
-            ", ".join(missed),
+            ", ".join(still),
             "modes that bend or twist the structure",
             "Dampers in the joints do not move in the others; leave them out.",
         )
     wanted = np.array(list(ratios.values()))
-    factors = np.zeros(len(owner))
-    factors[seen] = _fitted(matrix[:, seen] / wanted[:, None], np.array(owner)[seen])
+    distinct = bool(np.all(share.max(axis=0) > _SMALL))
+    factors = _fitted(matrix / wanted[:, None], np.array(owner), distinct=distinct)
     per_region = factors.reshape(len(regions), len(spread))
     weights = np.array(list(spread.values()))
     return JointDamping(
@@ -122,28 +121,30 @@ def _spread(named: set[str]) -> dict[str, tuple[float, float, float]]:
     return spread | ({"T": (0.0, 0.0, 1.0)} if "T" in named else {})
 
 
-def _fitted(matrix: Array, owner: np.ndarray[tuple[int], np.dtype[np.str_]]) -> Array:
+def _fitted(
+    matrix: Array, owner: np.ndarray[tuple[int], np.dtype[np.str_]], *, distinct: bool
+) -> Array:
     """Non-negative factors for which the products with the matrix are nearest to 1.
 
-    A unique unconstrained solution that is not negative is the answer. SciPy's optimisers, which
-    are slow to import, are needed otherwise only.
+    A unique unconstrained solution that is not negative is the answer, where all factors matter.
+    SciPy's optimisers, which are slow to import, are needed otherwise only. There equal factors of
+    one owner have a small weight, which decides what the modes leave open.
     """
     wanted = np.ones(len(matrix))
-    free, _, rank, _ = np.linalg.lstsq(matrix, wanted)
-    if rank == matrix.shape[1] and np.all(free >= 0):
-        return np.asarray(free)
+    if distinct:
+        free, _, rank, _ = np.linalg.lstsq(matrix, wanted)
+        if rank == matrix.shape[1] and np.all(free >= 0):
+            return np.asarray(free)
     from scipy.optimize import nnls
 
     size = 1 / matrix.sum(axis=1).max()  # in s, of a factor
-    if rank < matrix.shape[1]:
-        pairs = [
-            (i, j)
-            for i, name in enumerate(owner)
-            for j in np.flatnonzero(owner[i + 1 :] == name)[:1] + i + 1
-        ]
-        even = np.zeros((len(pairs), matrix.shape[1]))
-        for row, (i, j) in zip(even, pairs, strict=True):
-            row[i], row[j] = _EVENNESS / size, -_EVENNESS / size
-        matrix = np.vstack([matrix, even])
-        wanted = np.concatenate([wanted, np.zeros(len(pairs))])
-    return np.asarray(nnls(matrix * size, wanted)[0] * size)
+    pairs = [
+        (i, j)
+        for i, name in enumerate(owner)
+        for j in np.flatnonzero(owner[i + 1 :] == name)[:1] + i + 1
+    ]
+    even = np.zeros((len(pairs), matrix.shape[1]))
+    for row, (i, j) in zip(even, pairs, strict=True):
+        row[i], row[j] = _EVENNESS, -_EVENNESS
+    whole = np.vstack([size * matrix, even])
+    return np.asarray(size * nnls(whole, np.concatenate([wanted, np.zeros(len(pairs))]))[0])

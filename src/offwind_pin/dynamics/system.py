@@ -15,6 +15,7 @@ from offwind_pin.loads.point_load import PointLoad
 from offwind_pin.loads.sea.hydrodynamic_loads import HydrodynamicModel
 from offwind_pin.loads.sea.sea import Sea
 from offwind_pin.loads.soil.foundation import Foundation
+from offwind_pin.loads.structural.inertial_damping import InertialDamping
 from offwind_pin.structure.chain import Chain
 
 if TYPE_CHECKING:
@@ -42,7 +43,7 @@ class System:
         Of the chain's springs and dampers, zero at the root.
     damping_ratios : dict of str to float
         Achieved ratios of the named modes by label, for the record.
-    structural_loads : tuple of PointLoad
+    structural_loads : tuple of InertialDamping
         Structural damping that acts between the structure and the inertial frame.
     damping_cautions : tuple of str
         Sentences about structural damping that differs from what was asked for.
@@ -55,7 +56,7 @@ class System:
     joint_stiffness: Array
     joint_damping: Array
     damping_ratios: dict[str, float]
-    structural_loads: tuple[PointLoad, ...] = ()
+    structural_loads: tuple[InertialDamping, ...] = ()
     damping_cautions: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
@@ -114,7 +115,7 @@ class System:
         self,
         joint_damping: Array,
         ratios: dict[str, float],
-        structural_loads: tuple[PointLoad, ...] = (),
+        structural_loads: tuple[InertialDamping, ...] = (),
         cautions: tuple[str, ...] = (),
     ) -> System:
         """The same system with other structural damping."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar
+from typing import Any
 
 import numpy as np
 
@@ -13,10 +13,10 @@ from offwind_pin.base.descriptions import one_line
 from offwind_pin.loads.point_load import (
     SPIN,
     VELOCITY,
-    KernelLoad,
     force_kernel,
     no_tangents,
 )
+from offwind_pin.loads.structural.inertial_damping import InertialDamping
 
 
 @force_kernel
@@ -46,7 +46,7 @@ def _forces(
 
 
 @dataclass(frozen=True, eq=False)
-class CoupledDamping(KernelLoad):
+class CoupledDamping(InertialDamping):
     """k dampers, each on a weighted sum of the velocities of all points.
 
     With the wrenches w_ip of damper i at the points p, its force at each point is
@@ -70,9 +70,6 @@ class CoupledDamping(KernelLoad):
     wrench: Array
     rate: Array
 
-    moves_with_ground: ClassVar[bool] = True
-    records_soil_force: ClassVar[bool] = False
-
     force_kernel = _forces
     tangent_kernel = no_tangents
 
@@ -87,3 +84,11 @@ class CoupledDamping(KernelLoad):
     @property
     def coupling(self) -> tuple[Array, Array]:
         return self.wrench, self.rate
+
+    def describe(self) -> dict[str, Any]:
+        return {
+            "name": self.name,
+            "z_m": self.height.tolist(),
+            "wrench": self.wrench.tolist(),
+            "rate": self.rate.tolist(),
+        }

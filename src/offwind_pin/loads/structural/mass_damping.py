@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar
+from typing import Any
 
 import numpy as np
 
@@ -15,10 +15,10 @@ from offwind_pin.loads.point_load import (
     MOMENT_BY_SPIN,
     SPIN,
     VELOCITY,
-    KernelLoad,
     force_kernel,
     tangent_kernel,
 )
+from offwind_pin.loads.structural.inertial_damping import InertialDamping
 
 
 @force_kernel
@@ -46,7 +46,7 @@ def _tangents(
 
 
 @dataclass(frozen=True, eq=False)
-class MassDamping(KernelLoad):
+class MassDamping(InertialDamping):
     """Dampers between points and the inertial frame, along and about its axes.
 
     Attributes
@@ -63,9 +63,6 @@ class MassDamping(KernelLoad):
     height: Array
     dampers: Array
 
-    moves_with_ground: ClassVar[bool] = True
-    records_soil_force: ClassVar[bool] = False
-
     force_kernel = _forces
     tangent_kernel = _tangents
 
@@ -74,3 +71,10 @@ class MassDamping(KernelLoad):
     @cached_property
     def constants(self) -> Array:
         return np.ascontiguousarray(self.dampers)
+
+    def describe(self) -> dict[str, Any]:
+        return {
+            "name": self.name,
+            "z_m": self.height.tolist(),
+            "dampers": self.dampers.tolist(),
+        }
