@@ -37,7 +37,7 @@ class OperationalCase:
             self.dt,
             [self.load],
             ramp=self.ramp,
-            output_dt=self.output_dt,
+            save_at=ow.SaveAt(self.output_dt),
             **settings,
         )
 

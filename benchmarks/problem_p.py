@@ -131,12 +131,9 @@ def run(
     return ow.simulate(
         structure,
         duration,
-        dt,
-        [load(structure, duration)],
-        output_dt=output_dt,
-        spectral_radius=spectral_radius,
-        integrator=integrator,
-        heights=[structure.turbine.site.mudline],
+        loads=[load(structure, duration)],
+        save_at=ow.SaveAt(output_dt, heights=(structure.turbine.site.mudline,)),
+        integrator=integrator or ow.GeneralizedAlpha(ow.FixedStep(dt), spectral_radius),
         directory=directory,
     )
 

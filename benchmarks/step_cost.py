@@ -149,7 +149,7 @@ def operating(elements: int, seconds: float) -> tuple[ow.System, ow.LoadHistory]
 
 def simulate(system: ow.System, history: ow.LoadHistory, seconds: float) -> Any:
     """What is timed."""
-    return ow.simulate(system, seconds, DT, [history], output_dt=EVERY * DT)
+    return ow.simulate(system, seconds, DT, [history], save_at=ow.SaveAt(EVERY * DT))
 
 
 def repeat(count: int, system: ow.System, history: ow.LoadHistory, seconds: float) -> None:

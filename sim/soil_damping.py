@@ -169,7 +169,7 @@ def study(
             analysis.dt,
             [history],
             ramp=analysis.ramp,
-            output_dt=analysis.output_dt,
+            save_at=ow.SaveAt(analysis.output_dt),
         )
         for name, value in measure(data, analysis, found["FA1_hz"][0]).items():
             found[name].append(value)

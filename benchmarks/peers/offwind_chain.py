@@ -21,11 +21,11 @@ def run(dt: float, duration: float) -> PeerRun:
     system = problem_p.system()
     loads = [problem_p.load(system, duration)]
     interval = output_stride(dt) * dt
-    ow.simulate(system, 10 * interval, dt, loads, output_dt=interval)
+    method = ow.GeneralizedAlpha(ow.FixedStep(dt), SPECTRAL_RADIUS)
+    saved = ow.SaveAt(interval)
+    ow.simulate(system, 10 * interval, loads=loads, integrator=method, save_at=saved)
     with stopwatch() as spent:
-        data = ow.simulate(
-            system, duration, dt, loads, output_dt=interval, spectral_radius=SPECTRAL_RADIUS
-        )
+        data = ow.simulate(system, duration, loads=loads, integrator=method, save_at=saved)
     mudline, boundary = system.turbine.site.mudline, system.chain.boundary
     moment = data["section_moment"].sel(direction="y").to_numpy()
     lower = np.searchsorted(data["height"].to_numpy(), boundary[:-1] - 1e-6)

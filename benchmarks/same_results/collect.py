@@ -96,6 +96,11 @@ def gallery(out: Path, checkout: Path) -> None:
         plt.close("all")
 
 
+def saved(**settings: Any) -> dict[str, Any]:
+    """Settings of the output as the revision takes them."""
+    return {"save_at": ow.SaveAt(**settings)} if hasattr(ow, "SaveAt") else settings
+
+
 def python_api(out: Path, _: Path) -> None:
     """What a case file does not offer: steps and integrators of one's own, loads as objects."""
     turbine = ow.load_turbine(FOLDER / "turbine_springs.yaml")
@@ -109,10 +114,8 @@ def python_api(out: Path, _: Path) -> None:
         20.0,
         loads=[history],
         ramp=5.0,
-        output_dt=0.1,
+        **saved(output_dt=0.1, heights=[-25.0, 0.0, 33.3], segments=[(-20.0, 0.0), (0.0, 87.6)]),
         integrator=adaptive,
-        heights=[-25.0, 0.0, 33.3],
-        segments=[(-20.0, 0.0), (0.0, 87.6)],
         directory=out / "adaptive_step",
     )
     elastic = ow.load_turbine(FOLDER / "turbine_macro.yaml")
@@ -121,7 +124,7 @@ def python_api(out: Path, _: Path) -> None:
         small,
         1.0,
         loads=[history],
-        output_dt=0.1,
+        **saved(output_dt=0.1),
         integrator=ow.SciPyIVP("Radau"),
         directory=out / "scipy",
     )

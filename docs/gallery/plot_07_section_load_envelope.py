@@ -31,7 +31,7 @@ def main() -> dict[str, float]:
     turbine = ow.load_turbine("oc6_phase2")
     sea = ow.IrregularWaves(3.0, 9.0, seed=2, repeat_period=DURATION)
     system = ow.build(turbine, "distributed_springs", sea)
-    history = ow.simulate(system, DURATION, 0.05, [load()], ramp=RAMP, output_dt=0.1)
+    history = ow.simulate(system, DURATION, 0.05, [load()], ramp=RAMP, save_at=ow.SaveAt(0.1))
     kept = history.sel(time=slice(RAMP, None))
     bands = {
         "fore-aft moment, MN m": kept["section_moment"].sel(direction="y") / 1e6,

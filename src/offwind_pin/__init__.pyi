@@ -2,10 +2,17 @@
 
 from offwind_pin import plots, sea, signal, soil, viewer, wind
 from offwind_pin.analysis.build import build
-from offwind_pin.analysis.integrators import GeneralizedAlpha, Integrator, SciPyIVP
+from offwind_pin.analysis.integrators import (
+    GeneralizedAlpha,
+    Integrator,
+    OneStepMethod,
+    SciPyIVP,
+    StepFailed,
+)
 from offwind_pin.analysis.modal import ModalResult, modes
 from offwind_pin.analysis.simulate import simulate
 from offwind_pin.analysis.static import StaticResult, static
+from offwind_pin.base.channels import Channel
 from offwind_pin.base.errors import InputError, InterruptedSimulation, OffwindError, SolverError
 from offwind_pin.cases.case import Case, load_case
 from offwind_pin.cases.run import run_case
@@ -22,7 +29,6 @@ from offwind_pin.dynamics.system import System
 from offwind_pin.formats.urdf_folder import export_urdf
 from offwind_pin.loads.earthquake.ground_motion import GroundMotion
 from offwind_pin.loads.point_load import (
-    Channel,
     PointForces,
     PointLoad,
     PointMotion,
@@ -34,6 +40,7 @@ from offwind_pin.loads.sea.waves.spectra import JonswapSpectrum
 from offwind_pin.loads.tower_top.load_history import LoadHistory, read_load_history
 from offwind_pin.loads.wind.rotor_thrust import RotorThrust
 from offwind_pin.results.reading import open_results
+from offwind_pin.results.save_at import SaveAt
 
 # Names that have moved to a namespace can still be imported from here.
 from offwind_pin.sea import Crest as Crest
@@ -105,6 +112,7 @@ __all__ = [
     "ModalDamping",
     "ModalResult",
     "OffwindError",
+    "OneStepMethod",
     "PointForces",
     "PointLoad",
     "PointMotion",
@@ -112,9 +120,11 @@ __all__ = [
     "RayleighDamping",
     "RegularWaves",
     "RotorThrust",
+    "SaveAt",
     "SciPyIVP",
     "SolverError",
     "StaticResult",
+    "StepFailed",
     "StepPolicy",
     "StiffnessDamping",
     "StillWater",

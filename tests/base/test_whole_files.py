@@ -9,7 +9,13 @@ import pytest
 import xarray as xr
 from numpy.testing import assert_allclose
 
-from offwind_pin.base.whole_files import whole_file, write_json, write_netcdf, write_text
+from offwind_pin.base.whole_files import (
+    append_netcdf,
+    whole_file,
+    write_json,
+    write_netcdf,
+    write_text,
+)
 
 
 def names(folder: Path) -> list[str]:
@@ -75,7 +81,7 @@ def test_json_refuses_nan_and_keeps_the_old_file(tmp_path: Path) -> None:
 
 
 def test_netcdf_reads_back(tmp_path: Path) -> None:
-    """Time series come back exactly, fields over the height in single precision."""
+    """Numbers come back exactly, or with the precision asked for in the file."""
     rng = np.random.default_rng(1)
     moment, field = rng.normal(size=(5, 3)), rng.normal(size=(5, 4, 3))
     data = xr.Dataset(
@@ -86,7 +92,7 @@ def test_netcdf_reads_back(tmp_path: Path) -> None:
         attrs={"title": "test"},
     )
     path = tmp_path / "results.nc"
-    write_netcdf(path, data)
+    append_netcdf(path, iter([data]), {"displacement": "float32"})
     with xr.open_dataset(path, engine="netcdf4") as again:
         assert_allclose(again.mudline_moment, moment, rtol=0)
         assert_allclose(again.displacement, field, rtol=6e-8)

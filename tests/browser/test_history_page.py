@@ -26,7 +26,7 @@ def results(undamped: ow.Turbine) -> xr.Dataset:
     """A regular wave that travels along 60 degrees at a high water level."""
     sea = ow.RegularWaves(6.0, 8.0, direction_deg=60.0, water_level=LEVEL)
     system = ow.build(undamped, "coupled_springs", sea, elements=6)
-    return ow.simulate(system, 20.0, 0.05, ramp=4.0, output_dt=0.1)
+    return ow.simulate(system, 20.0, 0.05, ramp=4.0, save_at=ow.SaveAt(0.1))
 
 
 @pytest.fixture(scope="module")

@@ -269,7 +269,7 @@ def results(undamped: ow.Turbine) -> xr.Dataset:
     sea = ow.RegularWaves(6.0, 8.0, direction_deg=60.0)
     system = ow.build(undamped, "distributed_springs", sea, elements=10)
     load = np.array([9e5, -4e5, 2e5, 0, 0, 0])
-    return ow.simulate(system, 12.0, 0.05, [load], ramp=4.0, output_dt=0.2)
+    return ow.simulate(system, 12.0, 0.05, [load], ramp=4.0, save_at=ow.SaveAt(0.2))
 
 
 @pytest.fixture(scope="module")

@@ -79,5 +79,7 @@ def test_time_history(
 ) -> None:
     """Results of waves on a coarse structure, from the file that a run would write."""
     system = ow.build(undamped, "clamped", ow.RegularWaves(6.0, 8.0), elements=6)
-    write_netcdf(tmp_path / "results.nc", ow.simulate(system, 6.0, 0.05, ramp=1.0, output_dt=0.2))
+    write_netcdf(
+        tmp_path / "results.nc", ow.simulate(system, 6.0, 0.05, ramp=1.0, save_at=ow.SaveAt(0.2))
+    )
     check_moving(driver, script("time_history.py", str(tmp_path), "--start", "1"))

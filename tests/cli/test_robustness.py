@@ -111,15 +111,11 @@ BAD_ARGUMENTS: dict[str, tuple[Callable[[ow.Turbine], object], str]] = {
             ("empty", [], np.zeros((0, 6))),
         )
     },
-    **{
-        f"simulation {settings}": (
-            lambda turbine, k=settings: ow.simulate(
-                ow.build(turbine, "clamped", elements=2), 1.0, 0.1, **k
-            ),
-            next(iter(settings)),
-        )
-        for settings in ({"output_dt": float("nan")}, {"spectral_radius": 2.0})
-    },
+    "output_dt": (lambda turbine: ow.SaveAt(float("nan")), "output_dt"),
+    "spectral_radius": (
+        lambda turbine: ow.GeneralizedAlpha(ow.FixedStep(0.1), 2.0),
+        "spectral_radius",
+    ),
 }
 """A call with an argument that cannot be used, and the name or the allowed values in its message.
 Too many elements are refused before any memory is taken."""

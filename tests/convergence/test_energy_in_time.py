@@ -34,9 +34,8 @@ def let_go(
         system,
         duration,
         loads=[load],
-        output_dt=output_dt,
+        save_at=ow.SaveAt(output_dt, heights=[0.0]),
         integrator=integrator,
-        heights=[0.0],
     )
 
 

@@ -39,7 +39,7 @@ def runs(system: ow.System) -> list[xr.Dataset]:
     assert np.allclose(np.diff(wind.time), SAMPLING)
     nodes = system.foundation.soil[0].height
     return [
-        ow.simulate(system, DURATION, dt, [wind], ramp=RAMP, output_dt=0.2, heights=nodes)
+        ow.simulate(system, DURATION, dt, [wind], ramp=RAMP, save_at=ow.SaveAt(0.2, heights=nodes))
         for dt in STEPS.tolist()
     ]
 

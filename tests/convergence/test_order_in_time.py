@@ -56,9 +56,8 @@ def channels(system: ow.System, integrator: GeneralizedAlpha) -> list[Array]:
         END,
         loads=[smooth_load(system)],
         ramp=RAMP,
-        output_dt=OUTPUT,
+        save_at=ow.SaveAt(OUTPUT, heights=[0.0]),
         integrator=integrator,
-        heights=[0.0],
     )
     return [data[name].to_numpy() for name in ("mudline_moment", "tower_top_displacement")]
 

@@ -37,12 +37,15 @@ def damped(undamped: ow.Turbine) -> ow.System:
     return ow.build(several(undamped), "coupled_springs", elements=8)
 
 
-def let_go(system: ow.System, duration: float, dt: float, **keys: object) -> xr.Dataset:
+def let_go(
+    system: ow.System, duration: float, dt: float, save_at: ow.SaveAt | None = None, **keys: object
+) -> xr.Dataset:
     """Free motion from the static state under a load at the top, which is then gone."""
     load = TowerTopLoad(system.chain.top, NOTHING, PUSH)
     method = GeneralizedAlpha(ow.FixedStep(dt), 1.0, 1e-11, 1e-12)
-    settings: dict[str, object] = {"loads": [load], "integrator": method, "heights": [20.0]}
-    return ow.simulate(system, duration, **(settings | keys))  # type: ignore[arg-type]
+    settings: dict[str, object] = {"loads": [load], "integrator": method}
+    save_at = save_at or ow.SaveAt(heights=[20.0])
+    return ow.simulate(system, duration, save_at=save_at, **(settings | keys))  # type: ignore[arg-type]
 
 
 def test_a_tilted_mass_hangs_in_its_spring(damped: ow.System) -> None:
@@ -161,7 +164,7 @@ def test_energy_closes_in_a_free_decay(damped: ow.System) -> None:
     """Stored, dissipated and worked: to second order in dt, with most of the motion made heat."""
     steps, errors = [0.02, 0.01, 0.005], []
     for dt in steps:
-        data = let_go(damped, 20.0, dt, output_dt=0.2)
+        data = let_go(damped, 20.0, dt, ow.SaveAt(0.2))
         errors.append(float(np.abs(data["energy_balance"]).max()))
     heat = data["energy_dissipated"].sel(sink="joint_dampers")[-1].item()
     assert fitted_order(steps, errors) == pytest.approx(2.0, abs=0.1)
@@ -173,7 +176,7 @@ def test_without_damper_energy_is_kept(undamped: ow.Turbine) -> None:
     """A spring alone exchanges energy and loses none; the mass moves more than its carrier."""
     free = damper("a", 115.63, "both", frequency_hz=0.25, damping_ratio=0.0)
     system = ow.build(with_dampers(undamped, free), "clamped", elements=5)
-    data = let_go(system, 40.0, 0.01, output_dt=0.1)
+    data = let_go(system, 40.0, 0.01, ow.SaveAt(0.1))
     kinetic = data["energy_stored"].sel(holder="kinetic").max().item()
     assert np.all(data["energy_dissipated"] == 0)
     assert np.abs(data["energy_balance"]).max() < 1e-4 * kinetic
@@ -196,7 +199,7 @@ def test_segments_are_in_equilibrium(undamped: ow.Turbine) -> None:
         1e6 - sum(m.mass for m in undamped.point_masses) + 9e5, rel=1e-9
     )
     ends = [(-75.0, 115.63), (-30.0, 115.63), (-75.0, -30.0), (20.0, 50.0), (-60.0, 20.0)]
-    data = let_go(system, 2.0, 0.05, output_dt=0.05, segments=ends)
+    data = let_go(system, 2.0, 0.05, ow.SaveAt(heights=[20.0], segments=ends))
     assert np.abs(data["section_force"]).max() > 1e7
     assert np.abs(data["segment_imbalance"]).max() < 1e-3
 
@@ -296,7 +299,7 @@ def test_foundations_take_dampers(undamped: ow.Turbine) -> None:
 
 def test_a_stopped_run_goes_on(damped: ow.System, tmp_path: Path) -> None:
     """To bitwise the same results, the dampers' displacements among them."""
-    keys = {"output_dt": 0.5, "duration": 50.0, "dt": 0.05}
+    keys = {"save_at": ow.SaveAt(0.5, heights=[20.0]), "duration": 50.0, "dt": 0.05}
     whole = let_go(damped, **keys, directory=tmp_path / "whole")  # type: ignore[arg-type]
 
     def stop(now: float) -> None:
@@ -321,7 +324,7 @@ def test_travel_is_watched(
         damper("long", 110.0, "both", travel_m=50.0, **tuning),
         damper("any", 100.0, "both", **tuning),
     )
-    data = let_go(ow.build(turbine, "clamped", elements=4), 45.0, 0.05, output_dt=0.1)
+    data = let_go(ow.build(turbine, "clamped", elements=4), 45.0, 0.05, ow.SaveAt(0.1))
     told = [record.getMessage() for record in caplog.records]
     assert [text for text in told if "short" in text] == told
     assert len(told) == 1
@@ -435,7 +438,7 @@ def test_a_case_s_summary_has_the_largest_motion(oc6: ow.Turbine, tmp_path: Path
     found = []
     for kind in kinds:
         system = ow.build(kind, "clamped", elements=6)
-        data = ow.simulate(system, 20.0, 0.1, [history], heights=[0.0])
+        data = ow.simulate(system, 20.0, 0.1, [history], save_at=ow.SaveAt(heights=[0.0]))
         found.append((summarise_dampers(data), data))
     (row,) = found[0][0]["tuned_mass_dampers"]
     slips = found[0][1]["tuned_mass_displacement"].to_numpy()

@@ -70,6 +70,43 @@ def test_wave_model(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert speed == pytest.approx(0.1 * np.pi * np.exp([0.0, -5 * np.pi**2 / 9.81]))
 
 
+def test_integrator(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Average acceleration is generalised-alpha without numerical damping; with it there is more."""
+    found = run("AverageAcceleration", tmp_path)
+    assert printed(capsys)[0] < 1e-7
+    size = float(abs(found["expected"]).max())
+    assert float(abs(found["damped"] - found["expected"]).max()) > 1e-4 * size
+
+
+def test_integrator_is_resumed_and_fails_like_any(tmp_path: Path) -> None:
+    """A stopped run goes on to bitwise the same; a step that fails ends with what came before."""
+    found = run("AverageAcceleration", tmp_path)
+    system = found["system"]
+
+    class Stops(found["AverageAcceleration"]):  # type: ignore[misc]
+        """Fails at a time, until it is mended."""
+
+        fails_at = 30.0
+
+        def step(self, chain: Any, time_inputs: Any, *state: Any) -> Any:
+            if time_inputs[0] > self.fails_at:
+                raise ow.StepFailed("told to", time_inputs[0], state[1])
+            return super().step(chain, time_inputs, *state)
+
+    def simulate(folder: str, method: ow.Integrator) -> Any:
+        settings = {"integrator": method, "save_at": ow.SaveAt(0.5, heights=[0.0])}
+        return ow.simulate(system, 32.0, directory=tmp_path / folder, **settings).load()
+
+    method = Stops()
+    with pytest.raises(ow.SolverError, match="told to") as failed:
+        simulate("stopped", method)
+    assert failed.value.time == pytest.approx(30.02)
+    assert failed.value.results["time"][-1] == 30.0
+    failed.value.results.close()
+    method.fails_at = 99.0
+    assert simulate("stopped", method).identical(simulate("whole", method))
+
+
 def test_step_policy(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Five steps to each interval of 0.2 s."""
     found = run("EqualSteps", tmp_path)
@@ -78,4 +115,4 @@ def test_step_policy(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None
 
 
 def test_every_example_is_run() -> None:
-    assert len(EXAMPLES) == 5
+    assert len(EXAMPLES) == 6

@@ -33,7 +33,7 @@ def files(*names: str) -> list[str]:
 @pytest.mark.parametrize(
     ("part", "names", "most"),
     [
-        ("load: its class, who makes it, its schema", ("TowerDrag", "tower_drag", "TowerWind"), 4),
+        ("load: its file, its key in cases", ("TowerDrag", "tower_drag", "TowerWind"), 2),
         ("wave model: its class and its schema", ("StreamWaves",), 2),
         (
             "foundation: its function, its kind, its parameters, the soil report that compares it",

@@ -26,9 +26,8 @@ def run(directory: Path, steps: str, duration: float = DURATION) -> None:
         system,
         duration,
         ramp=10.0,
-        output_dt=OUTPUT,
+        save_at=ow.SaveAt(OUTPUT, heights=[0.0]),
         integrator=INTEGRATORS[steps],
-        heights=[0.0],
         directory=directory,
     ).close()
 

@@ -24,8 +24,7 @@ def main() -> None:
         duration,
         0.05,
         ramp=60.0,
-        output_dt=0.1,
-        heights=heights.tolist(),
+        save_at=ow.SaveAt(0.1, heights=heights.tolist()),
         directory=folder,
     )
     in_memory = sum(variable.size * 8 for variable in data.variables.values())

@@ -13,7 +13,6 @@ import offwind_pin as ow
 from offwind_pin.base.fingerprint import NoFingerprintError, content_hash
 from offwind_pin.definitions.rotor_disc import rotor_disc
 from offwind_pin.loads.point_load import (
-    Channel,
     PointForces,
     PointLoad,
     PointMotion,
@@ -47,8 +46,8 @@ class Thruster(PointLoad):
         return PointTangents.zeros(1)
 
     @property
-    def channels(self) -> tuple[Channel, ...]:
-        return (Channel("thruster_pull", (), "N", "pull of the thrusters"),)
+    def channels(self) -> tuple[ow.Channel, ...]:
+        return (ow.Channel("thruster_pull", (), "N", "pull of the thrusters"),)
 
     def outputs(self, time: Array, ramp_factor: Array) -> dict[str, Array]:
         return {"thruster_pull": self.pull * (1 + ramp_factor * np.sin(time))}

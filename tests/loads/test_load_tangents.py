@@ -13,7 +13,6 @@ from helpers.numerics import relative_difference
 from helpers.point_loads import EveryKind
 
 import offwind_pin as ow
-from offwind_pin.analysis.tower_drag import tower_drag
 from offwind_pin.base.definition import Array
 from offwind_pin.definitions.hydrodynamics import FloodedPile
 from offwind_pin.definitions.rotor_disc import rotor_disc
@@ -51,7 +50,7 @@ from offwind_pin.loads.tower_top.load_history import TowerTopLoad
 from offwind_pin.loads.wind.history import WindHistory
 from offwind_pin.loads.wind.profiles import ExtremeOperatingGust, PowerLaw
 from offwind_pin.loads.wind.rotor_thrust import Control, RotorThrust
-from offwind_pin.loads.wind.tower_drag import TowerDrag, TowerWind
+from offwind_pin.loads.wind.tower_drag import TowerDrag, TowerWind, tower_drag
 
 TIME, RISE = 2.3, 0.7
 STEP, SIZE = 1e-5, 0.05

@@ -186,7 +186,7 @@ def move(system: ow.System, engine: Engine, **more: Any) -> xr.Dataset:
     }
     settings |= more
     return ow.simulate(
-        system, 2.0, loads=[push(2.0)], ramp=0.5, output_dt=0.1, engine=engine, **settings
+        system, 2.0, loads=[push(2.0)], ramp=0.5, save_at=ow.SaveAt(0.1), engine=engine, **settings
     )
 
 
@@ -267,7 +267,7 @@ def test_a_step_that_cannot_converge(undamped: ow.Turbine) -> None:
     integrator = ow.GeneralizedAlpha(ow.FixedStep(0.1, halvings=1), 0.9, 1e-30, 1e-30)
     for engine in ENGINES:
         with pytest.raises(ow.SolverError, match="did not converge") as failed:
-            ow.simulate(system, 1.0, 0.1, [push(1.0)], integrator=integrator, engine=engine)
+            ow.simulate(system, 1.0, loads=[push(1.0)], integrator=integrator, engine=engine)
         assert failed.value.time is not None
         assert 0 < failed.value.time <= 0.1
         assert failed.value.joint in system.chain.joint_name
@@ -285,10 +285,11 @@ def test_scipy_takes_pinocchio_s_equations(undamped: ow.Turbine) -> None:
     """It is its default engine; the compiled one is refused."""
     system = ow.build(undamped, "clamped", elements=2)
     integrator = ow.SciPyIVP("LSODA", 1e-6, 1e-8)
-    data = ow.simulate(system, 0.2, 0.1, integrator=integrator)
+    settings: dict[str, Any] = {"integrator": integrator, "save_at": ow.SaveAt(0.1)}
+    data = ow.simulate(system, 0.2, **settings)
     assert data.attrs["engine"] == "pinocchio"
     with pytest.raises(ow.InputError, match="pinocchio with SciPyIVP"):
-        ow.simulate(system, 0.2, 0.1, integrator=integrator, engine="compiled")
+        ow.simulate(system, 0.2, engine="compiled", **settings)
 
 
 def test_pinocchio_s_statics_and_modes_do_without_the_compiled_chain(

@@ -90,7 +90,8 @@ def errors_by_step(system: ow.System, loads: list[PointLoad]) -> list[float]:
     """Mudline moment's difference from Radau's over its largest, at dt = 0.01 and 0.005 s."""
 
     def moment(dt: float, integrator: Integrator | None = None) -> Array:
-        data = ow.simulate(system, 2.0, dt, loads, output_dt=0.1, integrator=integrator)
+        method = integrator or ow.GeneralizedAlpha(ow.FixedStep(dt))
+        data = ow.simulate(system, 2.0, loads=loads, save_at=ow.SaveAt(0.1), integrator=method)
         return data["mudline_moment"].to_numpy()
 
     exact = moment(0.01, SciPyIVP("Radau", 1e-8, 1e-10))
@@ -135,7 +136,13 @@ def test_a_user_s_exception_in_adaptive_steps(small: ow.System) -> None:
     """It is no step that failed and might be mended by smaller ones."""
     integrator = ow.GeneralizedAlpha(ow.AdaptiveStep(1e-5))
     with pytest.raises(MyMistakeError):
-        ow.simulate(small, 2.0, 0.05, [Raises(small.chain.top)], integrator=integrator)
+        ow.simulate(
+            small,
+            2.0,
+            loads=[Raises(small.chain.top)],
+            integrator=integrator,
+            save_at=ow.SaveAt(0.05),
+        )
 
 
 def test_results_before_a_user_s_exception_stay(
@@ -150,7 +157,7 @@ def test_results_before_a_user_s_exception_stay(
             60.0,
             0.05,
             [load],
-            output_dt=0.5,
+            save_at=ow.SaveAt(0.5),
             directory=tmp_path / folder,
             progress=reached.append,
         )

@@ -126,7 +126,7 @@ def motion(system: ow.System, integrator: GeneralizedAlpha | SciPyIVP) -> list[A
     load[:, 1] = 5e5 * np.sin(2 * np.pi * time / END) ** 2
     load[:, 5] = 5e6 * np.sin(2 * np.pi * time / END) ** 2
     acting = TowerTopLoad(system.chain.top, ow.LoadHistory(time, load, "turning"), np.zeros(6))
-    data = ow.simulate(system, END, loads=[acting], output_dt=0.1, integrator=integrator)
+    data = ow.simulate(system, END, loads=[acting], save_at=ow.SaveAt(0.1), integrator=integrator)
     assert data.attrs["element"] == "timoshenko"
     return [data[name].to_numpy() for name in ("mudline_moment", "tower_top_displacement")]
 

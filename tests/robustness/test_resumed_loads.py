@@ -46,7 +46,7 @@ def run(system: ow.System, directory: Path, load: Pull, *, stop: bool = False) -
             raise KeyboardInterrupt
 
     ow.simulate(
-        system, 40.0, 0.1, [load], output_dt=1.0, directory=directory, progress=progress
+        system, 40.0, 0.1, [load], save_at=ow.SaveAt(1.0), directory=directory, progress=progress
     ).close()
 
 

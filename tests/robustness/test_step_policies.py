@@ -43,11 +43,9 @@ def run(
     return ow.simulate(
         system,
         END,
-        OUTPUT,
-        loads(system) if acting is None else acting,
-        output_dt=OUTPUT,
+        loads=loads(system) if acting is None else acting,
+        save_at=ow.SaveAt(OUTPUT, heights=[0.0]),
         integrator=GeneralizedAlpha(policy),
-        heights=[0.0],
         **more,  # type: ignore[arg-type]
     )
 
@@ -93,7 +91,11 @@ def test_number_of_the_failed_step_is_the_integrator_s(tower: ow.System) -> None
     integrator = GeneralizedAlpha(FixedStep(OUTPUT, halvings=0))
     with pytest.raises(ow.SolverError) as caught:
         ow.simulate(
-            tower, END, loads=loads(tower), output_dt=OUTPUT, integrator=integrator, heights=[0.0]
+            tower,
+            END,
+            loads=loads(tower),
+            save_at=ow.SaveAt(OUTPUT, heights=[0.0]),
+            integrator=integrator,
         )
     assert caught.value.time == pytest.approx(1.3)
     assert caught.value.step == 13
@@ -218,8 +220,7 @@ def test_smooth_motion_meets_its_tolerance(coarse: ow.System) -> None:
             coarse,
             8.0,
             ramp=4.0,
-            output_dt=0.2,
-            heights=[0.0],
+            save_at=ow.SaveAt(0.2, heights=[0.0]),
             integrator=GeneralizedAlpha(policy),
         )
         assert data["time"].to_numpy() == pytest.approx(np.arange(41) * 0.2)

@@ -17,6 +17,7 @@ from offwind_pin.results.blocks import BLOCK_FOLDER, time_reached
 
 DURATION, OUTPUT = 90.0, 0.5
 """Four blocks of 20 s and a half one."""
+SAVED = ow.SaveAt(OUTPUT, heights=[0.0, 50.0])
 
 INTEGRATORS: dict[str, Integrator] = {
     "fixed": ow.GeneralizedAlpha(ow.FixedStep(0.05)),
@@ -45,9 +46,8 @@ def run(
         "duration": DURATION,
         "loads": [history()],
         "ramp": 10.0,
-        "output_dt": OUTPUT,
         "integrator": INTEGRATORS[method],
-        "heights": [0.0, 50.0],
+        "save_at": SAVED,
         "directory": directory,
     }
     return ow.simulate(system, **(settings | changed))  # type: ignore[arg-type]
@@ -125,7 +125,7 @@ def test_no_cache_outlives_a_block(system: ow.System, tmp_path: Path) -> None:
     settings: dict[str, object] = {
         "duration": 18.0,
         "ramp": 1.0,
-        "output_dt": 0.3,
+        "save_at": SAVED.replace(output_dt=0.3),
         "integrator": ow.GeneralizedAlpha(ow.FixedStep(0.3 / 128)),
     }
     run(system, "fixed", tmp_path / "whole", **settings).close()
@@ -177,11 +177,12 @@ CHANGES: dict[str, tuple[dict[str, object], str]] = {
     "integrator": ({"integrator": INTEGRATORS["adaptive"]}, "step_policy"),
     "duration": ({"duration": 80.0}, "duration_s"),
     "ramp": ({"ramp": 5.0}, "ramp_s"),
-    "output": ({"output_dt": 0.25}, "output_dt_s"),
+    "output": ({"save_at": SAVED.replace(output_dt=0.25)}, "output_dt_s"),
     "load": ({"loads": [history(1 + 1e-12)]}, "inputs_sha256"),
     "no load": ({"loads": []}, "tower_top_load_origin"),
-    "heights": ({"heights": [0.0, 50.5]}, "inputs_sha256"),
-    "segments": ({"segments": [(-75.0, 0.0)]}, "inputs_sha256"),
+    "heights": ({"save_at": SAVED.replace(heights=[0.0, 50.5])}, "inputs_sha256"),
+    "channels": ({"save_at": SAVED.replace(channels=["mudline_moment"])}, "inputs_sha256"),
+    "segments": ({"save_at": SAVED.replace(segments=[(-75.0, 0.0)])}, "inputs_sha256"),
     "provenance": ({"provenance": {"case": "another"}}, "case"),
 }
 
@@ -288,7 +289,7 @@ def test_own_loads_and_restraints_resume(undamped: ow.Turbine, tmp_path: Path) -
     root = HardeningRestraint(stiffness, 0.02 * stiffness)
     system = replace(bare, foundation=replace(bare.foundation, root=root))
     load = FromHistory(system.chain.top, "own", history(), history().load[0])
-    settings: dict[str, object] = {"loads": [load], "heights": [0.0]}
+    settings: dict[str, object] = {"loads": [load], "save_at": SAVED.replace(heights=[0.0])}
     run(system, "fixed", tmp_path / "whole", **settings).close()
     interrupted(system, tmp_path / "stopped", **settings)
     run(system, "fixed", tmp_path / "stopped", **settings).close()

@@ -49,7 +49,10 @@ def test_single_mass_has_the_response_spectrum_s_ordinates(period: float) -> Non
     """Displacement, pseudo and absolute acceleration within 0.5 %, in both horizontal directions."""
     motion = shaking(peak=(3.0, 2.0, 0.0))
     data = ow.simulate(
-        single_mass(period, 0.05), 16.0, 0.0025, ground_motion=motion, spectral_radius=1.0
+        single_mass(period, 0.05),
+        16.0,
+        ground_motion=motion,
+        integrator=ow.GeneralizedAlpha(ow.FixedStep(0.0025), 1.0),
     )
     spectrum = response_spectrum(motion.corrected[0], motion.step, np.array([period]), 0.05)
     found = np.abs(relative(data)).max(axis=0)
@@ -98,7 +101,7 @@ def test_rigid_structure_goes_with_its_base() -> None:
     system = ow.build(tube(gravity=GRAVITY, top_mass=1e5), "clamped", elements=3)
     system = replace(system, joint_stiffness=1e6 * system.joint_stiffness)
     motion = shaking(4.0, 0.02)
-    data = ow.simulate(system, 4.0, 0.002, ground_motion=motion, output_dt=0.02)
+    data = ow.simulate(system, 4.0, 0.002, ground_motion=motion, save_at=ow.SaveAt(0.02))
     ground = data["ground_displacement"].isel(level=0).to_numpy()
     displacement = data["displacement"].to_numpy()
     assert np.abs(displacement - ground[:, None]).max() < 1e-5 * np.abs(ground).max()
@@ -120,7 +123,7 @@ def test_turning_the_earthquake_turns_the_answer() -> None:
     )
     method = ow.GeneralizedAlpha(ow.FixedStep(0.01), 0.9, 1e-11, 1e-12)
     plain, turned = (
-        ow.simulate(system, 5.0, 0.01, ground_motion=given, integrator=method)
+        ow.simulate(system, 5.0, ground_motion=given, integrator=method)
         for given in (motion, motion.turned(angle))
     )
     for channel in ("displacement", "acceleration", "section_force"):
@@ -182,8 +185,7 @@ def on_base(system: ow.System, motion: ow.GroundMotion, duration: float = 5.0) -
         duration,
         0.01,
         ground_motion=motion,
-        heights=[-20.0, 20.0],
-        segments=[(-20.0, 80.0)],
+        save_at=ow.SaveAt(heights=[-20.0, 20.0], segments=[(-20.0, 80.0)]),
     )
 
 
@@ -241,7 +243,11 @@ def test_rigid_soil_moves_the_pile_depth_by_depth(oc6: ow.Turbine) -> None:
     motion = ow.GroundMotion(time, acceleration, np.array([-40.0, -20.0]))
     system = in_soil(oc6, 1e12)
     data = ow.simulate(
-        system, 5.0, 0.01, ground_motion=motion, heights=[-40.0, -30.0, -20.0], segments=[(-20, 80)]
+        system,
+        5.0,
+        0.01,
+        ground_motion=motion,
+        save_at=ow.SaveAt(heights=[-40.0, -30.0, -20.0], segments=[(-20, 80)]),
     )
     ground = data["ground_displacement"].sel(direction="x").to_numpy()
     expected = np.column_stack([ground[:, 0], ground.mean(axis=1), ground[:, 1]])
@@ -288,12 +294,16 @@ def test_radau_agrees(undamped: ow.Turbine, foundation: str) -> None:
         motion = ow.GroundMotion(corners, both, np.array([system.chain.base, -20.0]))
     errors = []
     expected = ow.simulate(
-        system, 2.0, 0.1, ground_motion=motion, integrator=ow.SciPyIVP("Radau", 1e-7, 1e-9)
+        system,
+        2.0,
+        ground_motion=motion,
+        integrator=ow.SciPyIVP("Radau", 1e-7, 1e-9),
+        save_at=ow.SaveAt(0.1),
     )
     size = float(np.abs(expected["mudline_moment"]).max())
     steps = [0.02, 0.01, 0.005]
     for dt in steps:
-        data = ow.simulate(system, 2.0, dt, ground_motion=motion, output_dt=0.1)
+        data = ow.simulate(system, 2.0, dt, ground_motion=motion, save_at=ow.SaveAt(0.1))
         errors.append(float(np.abs(data["mudline_moment"] - expected["mudline_moment"]).max()))
     assert errors[-1] < 5e-3 * size
     assert fitted_order(steps, errors) == pytest.approx(2.0, abs=0.3)
@@ -317,7 +327,7 @@ def ledgers(undamped: ow.Turbine, request: pytest.FixtureRequest) -> list[xr.Dat
         levels = np.array([system.chain.base, -20.0])
         motion = ow.GroundMotion(motion.time, both, levels, "parabolic")
     return [
-        ow.simulate(system, 8.0, dt, ground_motion=motion, output_dt=0.1)
+        ow.simulate(system, 8.0, dt, ground_motion=motion, save_at=ow.SaveAt(0.1))
         for dt in LEDGER_STEPS.tolist()
     ]
 

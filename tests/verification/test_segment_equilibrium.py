@@ -3,6 +3,7 @@
 import itertools
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -34,8 +35,8 @@ def shaking(duration: float) -> ow.LoadHistory:
     return ow.LoadHistory(time, shape * [2e6, 1e6, 5e5, 1e7, 2e7, 3e7], "shaking")
 
 
-def run(system: ow.System, **settings: object) -> xr.Dataset:
-    return ow.simulate(system, 4.0, 0.02, [shaking(4.0)], output_dt=0.2, **settings)  # type: ignore[arg-type]
+def run(system: ow.System, **where: Any) -> xr.Dataset:
+    return ow.simulate(system, 4.0, 0.02, [shaking(4.0)], save_at=ow.SaveAt(0.2, **where))
 
 
 def imbalance(data: xr.Dataset) -> Array:

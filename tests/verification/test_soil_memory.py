@@ -106,7 +106,7 @@ def test_time_starts_from_the_held_load(system: ow.System) -> None:
 
 def swung(system: ow.System, dt: float, amplitude: float = 3e6) -> xr.Dataset:
     load = Swing(system.chain.top, amplitude, 5.0)
-    return ow.simulate(system, 20.0, dt, [load], ramp=5.0, output_dt=0.1)
+    return ow.simulate(system, 20.0, dt, [load], ramp=5.0, save_at=ow.SaveAt(0.1))
 
 
 def soil_heat(history: xr.Dataset) -> Array:
@@ -170,9 +170,9 @@ def test_resumes_to_the_bit(
 def test_halved_steps_do_not_slip_twice(system: ow.System) -> None:
     """An interval that is done again starts from the slips that it started from before."""
     load = Swing(system.chain.top, 3e6, 5.0)
-    fixed = ow.simulate(system, 8.0, 0.005, [load], output_dt=0.1)
+    fixed = ow.simulate(system, 8.0, 0.005, [load], save_at=ow.SaveAt(0.1))
     adaptive = ow.GeneralizedAlpha(ow.AdaptiveStep(tolerance=2e-7, largest=0.1))
-    refused = ow.simulate(system, 8.0, 0.1, [load], integrator=adaptive, output_dt=0.1)
+    refused = ow.simulate(system, 8.0, loads=[load], integrator=adaptive, save_at=ow.SaveAt(0.1))
     assert float(refused["solver_step"].min()) < 0.05
     pair = [h["mudline_moment"].sel(direction="y").to_numpy() for h in (fixed, refused)]
     assert pair[1] == pytest.approx(pair[0], abs=0.02 * np.abs(pair[0]).max())
@@ -181,7 +181,7 @@ def test_halved_steps_do_not_slip_twice(system: ow.System) -> None:
 def test_solvers_without_steps_are_refused(system: ow.System) -> None:
     """SciPy's know no converged step after which to remember."""
     with pytest.raises(ow.InputError, match="memory"):
-        ow.simulate(system, 1.0, 0.05, integrator=ow.SciPyIVP())
+        ow.simulate(system, 1.0, integrator=ow.SciPyIVP(), save_at=ow.SaveAt(0.05))
 
 
 def test_a_free_decay_is_damped_by_loops(undamped: Turbine) -> None:

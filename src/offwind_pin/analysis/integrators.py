@@ -1,10 +1,12 @@
-"""Integrators of a system's motion behind one protocol: a state and instants in, records out."""
+"""Integrators of a system's motion behind one interface: a state and instants in, records out."""
 
 from __future__ import annotations
 
 import logging
+from abc import ABC, abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, ClassVar, Literal, NamedTuple, Protocol
+from typing import Any, ClassVar, Literal, NamedTuple
 
 import numpy as np
 
@@ -15,6 +17,7 @@ from offwind_pin.base.errors import InputError
 from offwind_pin.definitions.engine import Engine
 from offwind_pin.dynamics.compiled.chain import CompiledChain
 from offwind_pin.dynamics.compiled.recorder import Cuts, Recorder, Segments
+from offwind_pin.results.channels import CHANNELS
 from offwind_pin.solvers.generalized_alpha import (
     CONVERGED,
     REASONS,
@@ -42,15 +45,28 @@ class MotionState(NamedTuple):
 
 
 class StepFailed(Exception):
-    """A step that did not converge: why, when, and its last finite residual (nv,).
+    """A step did not converge.
 
-    number : of the step, counted in the steps that the policy begins with
-    advanced : state and records of the intervals before it in the same call, or None
+    Parameters
+    ----------
+    reason : str
+        In words.
+    time : float, s
+        Of the end of the step.
+    residual : (nv,) array, N and N m
+        The last finite one.
+    number : int
+        Of the step, counted in the steps that the policy begins with; 0 where it is not known.
+
+    Attributes
+    ----------
+    advanced : tuple of MotionState and dict of str to array, optional
+        State and records of the intervals before it in the same call.
     """
 
     advanced: tuple[MotionState, Records] | None = None
 
-    def __init__(self, reason: str, time: float, residual: Array, number: int) -> None:
+    def __init__(self, reason: str, time: float, residual: Array, number: int = 0) -> None:
         self.reason = reason
         self.time = time
         self.residual = residual
@@ -65,24 +81,62 @@ Records = dict[str, Array]
 """Channels by name, over records first; see :class:`Recorder`."""
 
 
-class Integrator(Protocol):
-    """Takes a system from one instant to the next ones.
+class Integrator(ABC):
+    """Takes a system from one instant to the next ones: base class of all methods in time.
 
-    engines : that evaluate the equations of motion for it, the default first
+    A user's own method is most easily a :class:`OneStepMethod`.
+
+    Attributes
+    ----------
+    engines : tuple of str
+        Engines that evaluate the equations of motion for it, the default first.
     """
 
-    engines: ClassVar[tuple[Engine, ...]]
+    engines: ClassVar[tuple[Engine, ...]] = ("compiled",)
 
+    @property
+    def time_step(self) -> float | None:
+        """Time step in s where all steps have one size, else None."""
+        return None
+
+    @abstractmethod
     def begin(self, chain: CompiledChain, q: Array, interval: float) -> MotionState:
-        """State at time 0, at rest at joint displacements q; interval between outputs in s.
+        """State at time 0 at rest; the memory of soil and foundation is the chain's.
 
-        What soil and foundation keep of their past is the chain's.
+        Parameters
+        ----------
+        chain : CompiledChain
+            The system under loads.
+        q : (nv,) array, m and rad
+            Joint displacements.
+        interval : float, s
+            Between two outputs.
+
+        Returns
+        -------
+        MotionState
         """
 
+    @abstractmethod
     def advance(
         self, chain: CompiledChain, sections: Sections, state: MotionState, times: Array
     ) -> tuple[MotionState, Records]:
         """State at the last of the instants, and records at each of them.
+
+        Parameters
+        ----------
+        chain : CompiledChain
+            The system under loads.
+        sections : tuple of Cuts and Segments
+            What is recorded.
+        state : MotionState
+            From which it starts.
+        times : (t,) array, s
+            Instants of the outputs.
+
+        Returns
+        -------
+        tuple of MotionState and dict of str to array
 
         Raises
         ------
@@ -90,8 +144,76 @@ class Integrator(Protocol):
             With what the policy allows, a step did not converge.
         """
 
+    @abstractmethod
     def describe(self) -> dict[str, Any]:
         """Plain data for the results."""
+
+
+class OneStepMethod(Integrator):
+    """A method with steps of one size that needs q, v and a at the beginning of a step alone.
+
+    Base class of a user's own integrators, which must have :attr:`time_step`, :meth:`step` and
+    :meth:`describe`.
+    """
+
+    @property
+    @abstractmethod
+    def time_step(self) -> float:
+        """Time step in s."""
+
+    @abstractmethod
+    def step(
+        self, chain: CompiledChain, time_inputs: Array, step: float, q: Array, v: Array, a: Array
+    ) -> tuple[Array, Array, Array, int]:
+        """Take one step.
+
+        Parameters
+        ----------
+        chain : CompiledChain
+            The equations of motion. ``residual(time_inputs, q, v, a)`` gives the generalised forces
+            out of balance, (nv,) in N and N m; ``factorise(time_inputs, q, v, a, dv_dq, da_dq)``
+            makes the matrix dr/dq + dv_dq dr/dv + da_dq dr/da; ``correction(r)`` solves with it.
+        time_inputs : (w,) array
+            Of the end of the step; its time in s comes first.
+        step : float, s
+            Time step.
+        q, v, a : (nv,) array
+            Joint displacements, velocities and accelerations at the beginning of the step.
+
+        Returns
+        -------
+        tuple of array, array, array and int
+            q, v and a at the end of the step, and the number of Newton iterations.
+
+        Raises
+        ------
+        StepFailed
+            It did not converge.
+        """
+
+    def begin(self, chain: CompiledChain, q: Array, interval: float) -> MotionState:
+        return _at_start(chain, chain.start(q), FixedStep(self.time_step).first(interval))
+
+    def advance(
+        self, chain: CompiledChain, sections: Sections, state: MotionState, times: Array
+    ) -> tuple[MotionState, Records]:
+        scale = load_scale(chain.system)
+
+        def interval_to(state: MotionState, time: float) -> tuple[MotionState, Records]:
+            step = (time - state.time) / state.steps
+            recorder = _resumed_recorder(chain, sections, state, state.steps, 1)
+            chain.memory = state.memory
+            q, v, a = state.vectors[:3]
+            instants = np.linspace(state.time, time, state.steps + 1)[1:]
+            for row in chain.time_inputs(instants):
+                q, v, a, iterations = self.step(chain, row, step, q, v, a)
+                chain.note(recorder, row, q, v, a, scale, iterations)
+            vectors = np.array([q, v, a, *state.vectors[3:]])
+            sums = (recorder.energy, recorder.power)
+            after = MotionState(time, vectors, chain.memory, *sums, state.steps)
+            return after, _channels(recorder, step)
+
+        return _by_intervals(interval_to, state, times)
 
 
 class _Advanced(NamedTuple):
@@ -103,7 +225,7 @@ class _Advanced(NamedTuple):
 
 
 @dataclass(frozen=True)
-class GeneralizedAlpha:
+class GeneralizedAlpha(Integrator):
     """Generalised-alpha with modified Newton.
 
     Attributes
@@ -129,6 +251,10 @@ class GeneralizedAlpha:
         if not 0 <= self.spectral_radius <= 1:
             raise InputError("spectral_radius", self.spectral_radius, "0 to 1", "Correct it.")
 
+    @property
+    def time_step(self) -> float | None:
+        return self.policy.dt if isinstance(self.policy, FixedStep) else None
+
     def begin(self, chain: CompiledChain, q: Array, interval: float) -> MotionState:
         return _at_start(chain, chain.start(q), self.policy.first(interval))
 
@@ -140,15 +266,11 @@ class GeneralizedAlpha:
             attempt = self._try(chain, sections, state, times)
             if isinstance(attempt, _Advanced):
                 return attempt.state, attempt.records
-        pieces: list[Records] = []
-        for time in times:
-            try:
-                state, records = self._advance_interval(chain, sections, state, time, interval)
-            except StepFailed as failure:
-                failure.advanced = (state, _joined(pieces)) if pieces else None
-                raise
-            pieces.append(records)
-        return state, _joined(pieces)
+        return _by_intervals(
+            lambda state, time: self._advance_interval(chain, sections, state, time, interval),
+            state,
+            times,
+        )
 
     def _advance_interval(
         self,
@@ -219,7 +341,7 @@ class GeneralizedAlpha:
 
 
 @dataclass(frozen=True)
-class SciPyIVP:
+class SciPyIVP(Integrator):
     """SciPy's solvers for stiff equations on the same equations of motion, by Pinocchio.
 
     The Jacobian is analytic. A second implementation rather than a fast one; the energies
@@ -317,6 +439,23 @@ def first_record(
     return state._replace(energy=sums, power=recorder.power), _channels(recorder, np.nan)
 
 
+def _by_intervals(
+    advance: Callable[[MotionState, float], tuple[MotionState, Records]],
+    state: MotionState,
+    times: Array,
+) -> tuple[MotionState, Records]:
+    """One interval after the other; a failure has what came before it."""
+    pieces: list[Records] = []
+    for time in times.tolist():
+        try:
+            state, records = advance(state, time)
+        except StepFailed as failure:
+            failure.advanced = (state, _joined(pieces)) if pieces else None
+            raise
+        pieces.append(records)
+    return state, _joined(pieces)
+
+
 def _joined(pieces: list[Records]) -> Records:
     return {name: np.concatenate([piece[name] for piece in pieces]) for name in pieces[0]}
 
@@ -344,21 +483,7 @@ def _too_inexact(attempt: _Advanced, step: float) -> StepFailed:
 
 def _channels(recorder: Recorder, step: float) -> Records:
     """What was recorded, all with steps of one size in s."""
-    names = (
-        "time",
-        "displacement",
-        "acceleration",
-        "section_load",
-        "inertial_load",
-        "imbalance",
-        "soil_force",
-        "stroke",
-        "stored",
-        "dissipated",
-        "worked",
-        "iterations",
-        "residual",
-    )
+    names = {"time", *(channel.record for channel in CHANNELS)} & Recorder.__annotations__.keys()
     channels = {name: getattr(recorder, name) for name in names}
     channels["iterations"] = recorder.iterations.astype(np.int32)
     return channels | {"step": np.full(len(recorder.time), step)}

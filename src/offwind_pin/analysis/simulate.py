@@ -23,6 +23,7 @@ from offwind_pin.analysis.integrators import (
 )
 from offwind_pin.analysis.static import static
 from offwind_pin.analysis.wave_checks import check_waves, wave_facts
+from offwind_pin.base.channels import Channel
 from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError, InterruptedSimulation, SolverError
 from offwind_pin.base.fingerprint import NoFingerprintError, content_hash
@@ -32,9 +33,12 @@ from offwind_pin.dynamics.compiled.chain import CompiledChain
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.earthquake.ground_motion import GroundMotion, ground_motion_cautions
 from offwind_pin.loads.point_load import PointLoad, joined_attributes
-from offwind_pin.loads.tower_top.load_history import LoadHistory, constant_load
+from offwind_pin.loads.sea.forces.morison import WAVE_ELEVATION
+from offwind_pin.loads.tower_top.load_history import TOWER_TOP_LOAD, LoadHistory, constant_load
 from offwind_pin.results.blocks import BLOCK_FOLDER, Block, BlockStore, FolderStore, MemoryStore
+from offwind_pin.results.channels import CHANNELS
 from offwind_pin.results.dataset import HistoryWriter, versions
+from offwind_pin.results.save_at import SaveAt
 from offwind_pin.solvers.steps import FixedStep
 
 _log = logging.getLogger(__name__)
@@ -42,6 +46,8 @@ _log = logging.getLogger(__name__)
 Progress = Callable[[float], None]
 Start = Literal["static", "undeformed"]
 
+_DT = 0.02
+"""Time step in s."""
 _INERTIAL_SHARE = 0.01
 """Of a section load, that structural damping against the inertial frame may have unsaid."""
 _BLOCK_SECONDS = 20.0
@@ -52,18 +58,15 @@ _BLOCK_STEPS = 2000
 def simulate(
     system: System,
     duration: float,
-    dt: float = 0.02,
+    dt: float | None = None,
     loads: Sequence[PointLoad | LoadHistory | Array] = (),
     *,
     ramp: float = 0.0,
     start: Start = "static",
     ground_motion: GroundMotion | None = None,
-    output_dt: float | None = None,
-    spectral_radius: float = 0.9,
     integrator: Integrator | None = None,
     engine: Engine | None = None,
-    heights: Sequence[float] | None = None,
-    segments: Sequence[tuple[float, float]] | None = None,
+    save_at: SaveAt | None = None,
     directory: Path | str | None = None,
     provenance: dict[str, Any] | None = None,
     progress: Progress | None = None,
@@ -77,8 +80,9 @@ def simulate(
     ----------
     duration : float, s
         Simulated time, the ramp included.
-    dt : float, s
-        Time step.
+    dt : float, s, optional
+        Time step of generalised-alpha, by default 0.02; None with an ``integrator``, which has its
+        own steps.
     loads : sequence of PointLoad, LoadHistory or array
         Applied loads: at the yaw bearing a constant load (6,) Fx, Fy, Fz, Mx, My, Mz in N and N m,
         or a history, whose mean is taken over the time after the ramp; or point loads of your own.
@@ -89,22 +93,14 @@ def simulate(
     ground_motion : GroundMotion, optional
         An earthquake, at its own times whatever the ramp; displacements and accelerations are
         recorded as they are absolutely, not relative to the ground.
-    output_dt : float, s, optional
-        Interval of the output, a multiple of dt; by default every step.
-    spectral_radius : float
-        Numerical damping at infinite frequency, 1 for none.
     integrator : Integrator, optional
-        Instead of ``dt`` and ``spectral_radius``, see :mod:`offwind_pin.analysis.integrators`.
+        Method in time with its step policy, by default ``GeneralizedAlpha(FixedStep(dt))``.
     engine : {"compiled", "pinocchio"}, optional
         What evaluates the equations of motion: ``"compiled"``, the default, or ``"pinocchio"``, the
         only one for :class:`SciPyIVP`. What is recorded is evaluated from joint displacements,
         velocities and accelerations by compiled code with either.
-    heights : sequence of float, m, optional
-        Where motion and section loads are recorded, by default the element boundaries; mudline and
-        yaw bearing are added.
-    segments : sequence of (float, float), m, optional
-        Pairs of heights whose equilibrium is recorded as ``segment_imbalance``, by default the
-        whole structure and its parts above and below the mudline.
+    save_at : SaveAt, optional
+        What is recorded and when, by default everything at every step.
     directory : Path or str, optional
         Where the results are kept as they come, ``results.nc`` in the end, so that memory does not
         grow with the duration; the same call after a stop goes on where it left off, to bitwise the
@@ -135,15 +131,23 @@ def simulate(
     InterruptedSimulation
         The user stopped it; ``results`` holds the dataset so far.
     """
-    _check_settings(duration, dt, ramp, output_dt)
+    save_at = SaveAt() if save_at is None else save_at
+    _check_settings(duration, dt, ramp, integrator)
     if start not in get_args(Start):
         raise InputError("start", start, ", ".join(get_args(Start)), "Choose one.")
     if not isinstance(ground_motion, GroundMotion | None):
         raise InputError(
             "ground_motion", type(ground_motion).__name__, "a GroundMotion or None", "Make one."
         )
-    interval = dt if output_dt is None else output_dt
-    method = integrator or GeneralizedAlpha(FixedStep(dt), spectral_radius)
+    method = integrator or GeneralizedAlpha(FixedStep(_DT if dt is None else dt))
+    interval = save_at.output_dt or method.time_step
+    if interval is None:
+        raise InputError(
+            "save_at",
+            "no interval of the output",
+            f"one in s, as the steps of {type(method).__name__} are not fixed",
+            "Give SaveAt(output_dt=...).",
+        )
     engine = engine_of(method, engine)
     outputs = round(duration / interval)
     if abs(outputs * interval - duration) > 1e-6 * duration:
@@ -152,27 +156,24 @@ def simulate(
         )
     acting = [_point_load(system, load, ramp, duration) for load in loads]
     chain = moving_chain(system, acting, ramp, ground_motion, engine)
-    parts = _segments(system, segments)
-    sections = chain.sections(_recorded_heights(system, heights, parts), parts)
+    parts = _segments(system, save_at)
+    sections = chain.sections(_recorded_heights(system, save_at, parts), parts)
     q = np.zeros(system.nv)
     if start == "static":
         resting = static(system, loads=acting, engine=engine)
         q, chain.memory = resting.q, resting.memory
     state = method.begin(chain, q, interval)
-    check_waves(system, duration, ramp, method.describe().get("dt_s"))
+    check_waves(system, duration, ramp, method.time_step)
     attributes = _provenance(system, chain.acting, ramp, interval, method)
     attributes |= {"engine": engine, "start": start}
     if ground_motion is not None:
-        attributes |= _told_of(ground_motion, dt, duration)
+        attributes |= _told_of(ground_motion, method.time_step or interval, duration)
     attributes |= provenance or {}
     run = {
         **attributes,
         **versions(),
         "duration_s": duration,
     }
-    store: BlockStore = MemoryStore()
-    if directory is not None:
-        store = _folder_store(Path(directory) / BLOCK_FOLDER, run, chain, sections)
     writer = HistoryWriter(
         system.turbine.site.mudline,
         sections[0].height,
@@ -180,20 +181,22 @@ def simulate(
         [load.name for load in chain.acting],
         np.array([parts[0].stores_energy for parts in chain.parts], dtype=np.bool_),
         attributes,
-        drawing_data(system),
+        drawing_data(system) | _travel(system),
         _ground_levels(system, ground_motion),
-        {mass.name: mass.travel for mass in system.chain.tuned_masses},
+        [mass.name for mass in system.chain.tuned_masses],
         chain.soil.height,
-        {
-            channel.name: (channel.dims, channel.long_name, channel.units)
-            for load in chain.acting
-            for channel in load.channels
-        },
+        _load_channels(chain.acting),
+        save_at.channels,
+        inertial_damping=bool(system.structural_loads),
     )
+    store: BlockStore = MemoryStore()
+    if directory is not None:
+        inputs = (chain, sections, [channel.name for channel in writer.channels])
+        store = _folder_store(Path(directory) / BLOCK_FOLDER, run, *inputs)
     cautioned: set[str] = set()
     if len(store) == 0:
         state, records = first_record(chain, sections, state)
-        store.append(_block(chain, state, records))
+        store.append(_block(chain, writer, state, records))
     try:
         state = _state(store.last())
         per_block = _outputs_per_block(method, interval)
@@ -202,14 +205,14 @@ def simulate(
             until = min(done + per_block - done % per_block, outputs)
             times = interval * np.arange(done + 1, until + 1, dtype=float)
             state, records = method.advance(chain, sections, state, times)
-            store.append(_block(chain, state, records))
+            store.append(_block(chain, writer, state, records))
             _caution_of_travel(system, records, cautioned)
             done = until
             if progress is not None:
                 progress(state.time)
     except StepFailed as failure:
         if failure.advanced is not None:
-            store.append(_block(chain, *failure.advanced))
+            store.append(_block(chain, writer, *failure.advanced))
         joint, size = chain.worst_joint(failure.residual)
         raise SolverError(
             f"the time step did not converge: {failure.reason} (a smaller dt may help)",
@@ -275,20 +278,19 @@ def _inertial_share(store: BlockStore, height: Array) -> dict[str, Any]:
 
 
 def _outputs_per_block(method: Integrator, interval: float) -> int:
-    steps = method.describe().get("dt_s")
-    per_output = 1 if steps is None else max(1, round(interval / float(steps)))
+    per_output = 1 if method.time_step is None else max(1, round(interval / method.time_step))
     return max(1, min(round(_BLOCK_SECONDS / interval), _BLOCK_STEPS // per_output))
 
 
 def _recorded_heights(
-    system: System, heights: Sequence[float] | None, segments: Sequence[tuple[float, float]]
+    system: System, save_at: SaveAt, segments: Sequence[tuple[float, float]]
 ) -> Array:
     """Heights of the records, rising: those asked for, mudline, top, and the segments' ends."""
     chain = system.chain
-    asked = chain.boundary if heights is None else np.asarray(heights, dtype=float)
+    asked = chain.boundary if save_at.heights is None else np.array(save_at.heights, dtype=float)
     ends = np.array([z for pair in segments for z in pair])
     everything = np.concatenate([asked, [system.turbine.site.mudline, chain.top], ends])
-    outside = ~np.isfinite(everything) | (everything < chain.base) | (everything > chain.top)
+    outside = (everything < chain.base) | (everything > chain.top)
     if np.any(outside):
         raise InputError(
             "heights",
@@ -300,32 +302,31 @@ def _recorded_heights(
     return rising[np.concatenate([[True], np.diff(rising) > 1e-9])]
 
 
-def _segments(
-    system: System, segments: Sequence[tuple[float, float]] | None
-) -> list[tuple[float, float]]:
+def _segments(system: System, save_at: SaveAt) -> list[tuple[float, float]]:
     """The segments asked for; by default the whole, and what is above and below the mudline."""
+    if save_at.segments is not None:
+        return list(save_at.segments)
     chain, mudline = system.chain, system.turbine.site.mudline
-    if segments is None:
-        pile = [(chain.base, mudline)] if chain.base < mudline else []
-        above = [(mudline, chain.top)]
-        return [(chain.base, chain.top), *above, *pile] if pile else above
-    for low, high in segments:
-        if not low < high:
-            raise InputError("segments", (low, high), "a lower and a higher end", "Exchange them.")
-    return [(float(low), float(high)) for low, high in segments]
+    pile = [(chain.base, mudline)] if chain.base < mudline else []
+    above = [(mudline, chain.top)]
+    return [(chain.base, chain.top), *above, *pile] if pile else above
 
 
-def _block(chain: CompiledChain, state: MotionState, records: Records) -> Block:
-    """Records and the state at their end, with the loads that depend on time alone."""
+def _block(
+    chain: CompiledChain, writer: HistoryWriter, state: MotionState, records: Records
+) -> Block:
+    """Records that the writer needs, and the state at their end."""
     time = records["time"]
     shaken = {}
     if chain.ground_motion is not None:
         shaken["ground_motion"] = chain.ground_motion.motion(time)
-    return {
+    found = {
         **_of_whole_loads(chain, records),
         **_load_outputs(chain, time, smooth_ramp(time, chain.ramp_time)),
         **shaken,
-        **{f"state_{name}": np.asarray(value) for name, value in state._asdict().items()},
+    }
+    return {name: values for name, values in found.items() if name in writer.records} | {
+        f"state_{name}": np.asarray(value) for name, value in state._asdict().items()
     }
 
 
@@ -342,10 +343,19 @@ def _state(block: Block) -> MotionState:
     )
 
 
-def _check_settings(duration: float, dt: float, ramp: float, output_dt: float | None) -> None:
-    for name, value in (("duration", duration), ("dt", dt), ("output_dt", output_dt)):
+def _check_settings(
+    duration: float, dt: float | None, ramp: float, integrator: Integrator | None
+) -> None:
+    for name, value in (("duration", duration), ("dt", dt)):
         if value is not None and not (np.isfinite(value) and value > 0):
             raise InputError(name, value, "a positive number of seconds", "Correct it.")
+    if dt is not None and integrator is not None:
+        raise InputError(
+            "dt",
+            dt,
+            f"None with an integrator ({type(integrator).__name__}), which has its own steps",
+            "Leave dt out; SaveAt(output_dt=...) is the interval of the output.",
+        )
     if not 0 <= ramp < duration:
         raise InputError("ramp", ramp, f"0 to less than the duration ({duration} s)", "Shorten it.")
 
@@ -362,7 +372,11 @@ def _point_load(
 
 
 def _folder_store(
-    folder: Path, run: dict[str, Any], chain: CompiledChain, sections: Sections
+    folder: Path,
+    run: dict[str, Any],
+    chain: CompiledChain,
+    sections: Sections,
+    channels: Sequence[str],
 ) -> FolderStore:
     """Blocks in a folder, with those of a stopped run if it was this one.
 
@@ -373,7 +387,7 @@ def _folder_store(
     """
     unknown = None
     try:
-        inputs = _fingerprint(chain, sections)
+        inputs = _fingerprint(chain, sections, channels)
     except InputError as error:
         inputs, unknown = "unknown", error
     store = FolderStore(folder, run | {"inputs_sha256": inputs})
@@ -382,8 +396,8 @@ def _folder_store(
     return store
 
 
-def _fingerprint(chain: CompiledChain, sections: Sections) -> str:
-    """Hash of everything that determines the results besides the settings: loads and heights.
+def _fingerprint(chain: CompiledChain, sections: Sections, channels: Sequence[str]) -> str:
+    """Hash of what determines the results besides the settings: loads, heights and channels.
 
     Raises
     ------
@@ -411,15 +425,42 @@ def _fingerprint(chain: CompiledChain, sections: Sections) -> str:
         chain.system.foundation.describe(),
         sections[0].height,
         sections[1].cut,
+        list(channels),
         chain.model.stiffness,
         chain.model.damping,
         chain.ground_motion,
     )
 
 
+def _load_channels(loads: Sequence[PointLoad]) -> list[Channel]:
+    """Channels of loads, those of one name once, and the two that every run has.
+
+    Raises
+    ------
+    InputError
+        Two different channels of one name.
+    """
+    found = {channel.name: channel for channel in (TOWER_TOP_LOAD, WAVE_ELEVATION)}
+    known = {channel.name: channel for channel in CHANNELS}
+    for load in loads:
+        for channel in load.channels:
+            other = known.get(channel.name) or found.setdefault(channel.name, channel)
+            if other != channel:
+                raise InputError(
+                    f"load {load.name!r}, channel {channel.name!r}",
+                    f"{channel.units}, {channel.long_name!r}",
+                    f"a name of its own: there is one in {other.units}, {other.long_name!r}",
+                    "Rename it.",
+                )
+    return list(found.values())
+
+
 def _load_outputs(chain: CompiledChain, time: Array, ramp_factor: Array) -> Block:
     """Channels of the loads that depend on time alone, those of one name summed."""
-    found = {"tower_top_load": np.zeros((len(time), 6)), "wave_elevation": np.zeros(len(time))}
+    found = {
+        TOWER_TOP_LOAD.name: np.zeros((len(time), 6)),
+        WAVE_ELEVATION.name: np.zeros(len(time)),
+    }
     for load in chain.acting:
         for name, values in load.outputs(time, ramp_factor).items():
             found[name] = found[name] + values if name in found else values
@@ -438,6 +479,15 @@ def _of_whole_loads(chain: CompiledChain, records: Records) -> Records:
         parts = np.add.reduceat(records[name][:, own:], begin, axis=1)
         changed[name] = np.hstack([records[name][:, :own], parts])
     return records | changed
+
+
+def _travel(system: System) -> dict[str, tuple[str, Array, dict[str, str]]]:
+    """Available travel of the tuned mass dampers; empty without any."""
+    dampers = system.chain.tuned_masses
+    if not dampers:
+        return {}
+    about = {"long_name": "available travel of a tuned mass damper", "units": "m"}
+    return {"tuned_mass_travel": ("damper", np.array([mass.travel for mass in dampers]), about)}
 
 
 def _told_of_waves(system: System) -> dict[str, Any]:

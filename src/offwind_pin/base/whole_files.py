@@ -14,17 +14,6 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-_FULL_PRECISION = {
-    "time",
-    "height",
-    "mudline_moment",
-    "mudline_force",
-    "tower_top_displacement",
-    "ground_displacement",
-    "ground_velocity",
-    "ground_acceleration",
-}
-
 _CHUNK = 256
 """Instants that a file holds, and a reader reads, at once."""
 _SMALL = 500
@@ -58,18 +47,25 @@ def write_json(path: Path, data: dict[str, Any]) -> None:
 
 
 def write_netcdf(path: Path, data: xr.Dataset) -> None:
-    """Compressed NetCDF; histories over the height in single precision, the rest in double."""
+    """Compressed NetCDF."""
     append_netcdf(path, iter([data]))
 
 
-def append_netcdf(path: Path, parts: Iterator[xr.Dataset]) -> None:
-    """The same out of datasets that follow one another along ``time``, one at a time in memory."""
+def append_netcdf(
+    path: Path, parts: Iterator[xr.Dataset], dtypes: Mapping[str, str] | None = None
+) -> None:
+    """The same from datasets that follow one another along ``time``, one at a time in memory.
+
+    Parameters
+    ----------
+    dtypes : types of the numbers in the file, by variable, where they differ from those in memory
+    """
     import netCDF4
 
     with whole_file(path) as temporary:
         first = next(parts)
         unlimited = ["time"] if "time" in first.sizes else []
-        encoding = _encoding(first)
+        encoding = _encoding(first, dtypes or {})
         first.to_netcdf(temporary, engine="netcdf4", encoding=encoding, unlimited_dims=unlimited)
         with netCDF4.Dataset(temporary, "a") as file:
             for kept in file.variables.values():
@@ -87,11 +83,11 @@ def add_groups(path: Path, groups: Mapping[str, xr.Dataset]) -> None:
         shutil.copyfile(path, temporary)
         for name, data in groups.items():
             data.to_netcdf(
-                temporary, mode="a", group=name, engine="netcdf4", encoding=_encoding(data)
+                temporary, mode="a", group=name, engine="netcdf4", encoding=_encoding(data, {})
             )
 
 
-def _encoding(data: xr.Dataset) -> dict[Any, dict[str, Any]]:
+def _encoding(data: xr.Dataset, dtypes: Mapping[str, str]) -> dict[Any, dict[str, Any]]:
     encoding = {}
     for name, variable in data.variables.items():
         how: dict[str, Any] = {}
@@ -104,7 +100,7 @@ def _encoding(data: xr.Dataset) -> dict[Any, dict[str, Any]]:
         if name in data.data_vars:
             if variable.size > _SMALL or "time" in variable.dims:
                 how |= {"zlib": True, "complevel": 1}
-            if "time" in variable.dims and variable.ndim >= 3 and name not in _FULL_PRECISION:
-                how["dtype"] = "float32"
+            if name in dtypes:
+                how["dtype"] = dtypes[str(name)]
         encoding[name] = how
     return encoding

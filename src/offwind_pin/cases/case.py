@@ -19,6 +19,7 @@ from offwind_pin.definitions.reader import find_definition, load_turbine, read_d
 from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.earthquake.earthquake import Earthquake
+from offwind_pin.loads.load_definition import LoadDefinition
 from offwind_pin.loads.sea.sea import DrySea, Sea
 from offwind_pin.loads.sea.seas import SeaChoice
 from offwind_pin.loads.wind.tower_drag import TowerWind
@@ -170,9 +171,9 @@ class Case(Definition):
             return self
         loads = {
             "tower_top_load": self.tower_top_load is not None,
-            "tower_wind": self.tower_wind is not None,
             "earthquake": self.earthquake is not None,
             self.sea.kind: isinstance(self.sea, Sea) and self.sea.has_waves,
+            **dict.fromkeys(self.loads, True),
         }
         given = [name for name, is_there in loads.items() if is_there]
         if given:
@@ -181,6 +182,12 @@ class Case(Definition):
                 "out, or use analysis kind transient"
             )
         return self
+
+    @property
+    def loads(self) -> dict[str, LoadDefinition]:
+        """Loads that make themselves for a structure, by their keys."""
+        given = {name: getattr(self, name) for name in type(self).model_fields}
+        return {name: load for name, load in given.items() if isinstance(load, LoadDefinition)}
 
     @property
     def water(self) -> Sea | None:

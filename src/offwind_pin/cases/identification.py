@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from offwind_pin.analysis.integrators import GeneralizedAlpha
 from offwind_pin.analysis.modal import ModalResult
 from offwind_pin.analysis.simulate import simulate
 from offwind_pin.base.definition import Array
@@ -21,8 +22,10 @@ from offwind_pin.cases.case import OperationalModesSettings
 from offwind_pin.definitions.engine import Engine
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.tower_top.load_history import LoadHistory
+from offwind_pin.results.save_at import SaveAt
 from offwind_pin.signal.modal_identification.identify import operational_modes
 from offwind_pin.signal.modal_identification.modal_assurance import modal_assurance
+from offwind_pin.solvers.steps import FixedStep
 
 Progress = Callable[[float, float], None]
 
@@ -170,13 +173,12 @@ def _shaken(
     return simulate(
         system,
         steps * STEP,
-        STEP,
-        [LoadHistory(time, load, f"white noise, seed {seed}")],
+        loads=[LoadHistory(time, load, f"white noise, seed {seed}")],
         ramp=20.0,
-        spectral_radius=1.0,  # no numerical damping, which would be identified too
+        # no numerical damping, which would be identified too
+        integrator=GeneralizedAlpha(FixedStep(STEP), 1.0),
         engine=engine,
-        heights=height.tolist(),
-        segments=[],
+        save_at=SaveAt(heights=tuple(height.tolist()), segments=()),
         progress=None if progress is None else lambda now: progress(now, steps * STEP),
     )
 

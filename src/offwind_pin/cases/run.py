@@ -24,7 +24,6 @@ from offwind_pin.analysis.modal import ModalResult, modes
 from offwind_pin.analysis.sea_data import waves_dataset
 from offwind_pin.analysis.simulate import simulate
 from offwind_pin.analysis.static import StaticResult, static
-from offwind_pin.analysis.tower_drag import tower_drag
 from offwind_pin.base.errors import InterruptedSimulation, SolverError
 from offwind_pin.base.whole_files import add_groups, write_json, write_netcdf, write_text
 from offwind_pin.cases.case import (
@@ -46,6 +45,7 @@ from offwind_pin.loads.sea.sea import Sea
 from offwind_pin.results.blocks import time_reached
 from offwind_pin.results.dataset import versions
 from offwind_pin.results.reading import FILE, analysed, open_case
+from offwind_pin.results.save_at import SaveAt
 from offwind_pin.results.tree import prefixed
 from offwind_pin.signal.moment_spectrum import moment_spectrum
 
@@ -191,22 +191,22 @@ def _solve_transient(
     if case.earthquake is not None:
         gravity = turbine.site.gravity
         shaking = CaseEarthquake.of(case.earthquake, gravity, analysis.dt, analysis.duration)
-    wind = [] if case.tower_wind is None else [tower_drag(system, case.tower_wind)]
+    others = [load.on(system) for load in case.loads.values()]
     data = simulate(
         system,
         analysis.duration,
         analysis.dt,
-        [*top.loads, *wind],
+        [*top.loads, *others],
         ramp=analysis.ramp,
         ground_motion=None if shaking is None else shaking.motion,
         engine=analysis.engine,
-        output_dt=analysis.output_dt,
+        save_at=SaveAt(analysis.output_dt),
         directory=out,
         provenance={"case": case.name, "seed": case.seed, **top.provenance},
         progress=None if progress is None else lambda now: progress(now, analysis.duration),
     )
     with data:
-        state = static(system, top.mean, loads=wind, engine=analysis.engine)
+        state = static(system, top.mean, loads=others, engine=analysis.engine)
         result = modes(system, min(8, system.nv), state, engine=analysis.engine)
         marked = _marked(system.sea, result, top.blade_passing_frequency)
         spectrum = moment_spectrum(data, analysis.psd_segment, marked)

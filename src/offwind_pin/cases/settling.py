@@ -12,6 +12,7 @@ import xarray as xr
 from offwind_pin.analysis.simulate import simulate
 from offwind_pin.analysis.static import StaticResult
 from offwind_pin.dynamics.system import System
+from offwind_pin.results.save_at import SaveAt
 from offwind_pin.results.states import DIRECTIONS
 
 Progress = Callable[[float, float], None]
@@ -41,8 +42,7 @@ def settle(
         STEP,
         start="undeformed",
         engine=state.engine,
-        output_dt=_OUTPUT,
-        heights=state.height.tolist(),
+        save_at=SaveAt(_OUTPUT, heights=tuple(state.height.tolist())),
         progress=None if progress is None else lambda now: progress(now, duration),
     )
     moved = data["displacement"].sel(height=state.height, method="nearest").to_numpy()

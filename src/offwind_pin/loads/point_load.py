@@ -18,6 +18,7 @@ import numpy as np
 from numba import types
 from numpy.typing import NDArray
 
+from offwind_pin.base.channels import Channel
 from offwind_pin.base.definition import Array
 from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.fingerprint import content_hash
@@ -166,29 +167,6 @@ class PointTangents:
         parts = (getattr(self, item.name) for item in fields(self))
         whole = [np.zeros_like(self.stiffness) if part is None else part for part in parts]
         return np.stack(whole, axis=1)
-
-
-@dataclass(frozen=True, repr=False)
-class Channel:
-    """A quantity over time that a load adds to the results.
-
-    Attributes
-    ----------
-    name : str
-        In the dataset; what several loads give by one name is summed.
-    dims : tuple of str
-        Dimensions after ``time``: none, ``("component",)`` for Fx to Mz, or ``("direction",)`` for
-        x, y, z.
-    units, long_name : str
-        Attributes of the channel.
-    """
-
-    name: str
-    dims: tuple[str, ...]
-    units: str
-    long_name: str
-
-    __repr__ = one_line
 
 
 class PointLoad(ABC):

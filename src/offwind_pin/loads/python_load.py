@@ -11,6 +11,7 @@ from weakref import WeakValueDictionary
 import numpy as np
 from numba import objmode
 
+from offwind_pin.base.channels import Channel
 from offwind_pin.base.definition import Array
 from offwind_pin.loads.point_load import (
     ACCELERATION,
@@ -20,7 +21,6 @@ from offwind_pin.loads.point_load import (
     SPIN,
     TURN,
     VELOCITY,
-    Channel,
     KernelLoad,
     PointForces,
     PointLoad,

@@ -9,8 +9,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from offwind_pin.base.channels import FRAME
 from offwind_pin.base.mode_labels import DAMPING_PARTS
-from offwind_pin.results.dataset import FRAME, SECTION, versions
+from offwind_pin.results.channels import SECTION
+from offwind_pin.results.dataset import versions
 from offwind_pin.results.tree import TITLES
 
 Array = NDArray[np.float64]

@@ -17,7 +17,7 @@ from offwind_pin import plots
 @pytest.fixture(scope="module")
 def run(coarse: ow.System) -> xr.Dataset:
     heights = coarse.foundation.soil[0].height.tolist()
-    return ow.simulate(coarse, 40.0, 0.1, ramp=10.0, heights=[*heights, 0.0])
+    return ow.simulate(coarse, 40.0, 0.1, ramp=10.0, save_at=ow.SaveAt(heights=[*heights, 0.0]))
 
 
 @pytest.fixture(scope="module")

@@ -40,7 +40,7 @@ SEAS: dict[str, Sea] = {
 
 def history(turbine: ow.Turbine, sea: Sea | None, **settings: Any) -> xr.Dataset:
     system = ow.build(turbine, "clamped", sea, elements=6)
-    return ow.simulate(system, 20.0, 0.05, ramp=RAMP, output_dt=0.1, **settings)
+    return ow.simulate(system, 20.0, 0.05, ramp=RAMP, save_at=ow.SaveAt(0.1), **settings)
 
 
 @pytest.fixture(scope="module")

@@ -85,7 +85,7 @@ def test_higher_crests_bend_the_pile_more(oc6: ow.Turbine) -> None:
     )
     for kind in kinds:
         system = ow.build(oc6, "coupled_springs", kind, elements=12)
-        data = ow.simulate(system, 60.0, 0.1, ramp=20.0, heights=[0.0])
+        data = ow.simulate(system, 60.0, 0.1, ramp=20.0, save_at=ow.SaveAt(heights=[0.0]))
         last = data["mudline_moment"].sel(direction="y").to_numpy()[-200:]
         moments.append(float(np.ptp(last)))
     assert moments[1] == pytest.approx(moments[2], rel=0.03)

@@ -30,7 +30,9 @@ def system(built: tuple[ow.System, ow.ModalResult]) -> ow.System:
 
 @pytest.fixture(scope="module")
 def runs(system: ow.System) -> list[xr.Dataset]:
-    return [ow.simulate(system, 24.0, dt, ramp=6.0, output_dt=0.2) for dt in STEPS.tolist()]
+    return [
+        ow.simulate(system, 24.0, dt, ramp=6.0, save_at=ow.SaveAt(0.2)) for dt in STEPS.tolist()
+    ]
 
 
 def balance(data: xr.Dataset) -> float:
@@ -101,11 +103,11 @@ def test_generalised_alpha_against_radau(system: ow.System) -> None:
     """Two integrators, of which one asks for the mass matrix at each time; a coarse chain."""
     small = ow.build(system.turbine, "clamped", system.sea, elements=3)
     radau = ow.SciPyIVP("Radau", relative_tolerance=1e-6, absolute_tolerance=1e-8)
-    reference = ow.simulate(small, 4.0, 0.04, ramp=1.0, output_dt=0.2, integrator=radau)
+    reference = ow.simulate(small, 4.0, ramp=1.0, save_at=ow.SaveAt(0.2), integrator=radau)
     moment = reference["mudline_moment"].to_numpy()
     errors = []
     for dt in (0.02, 0.01, 0.005):
-        data = ow.simulate(small, 4.0, dt, ramp=1.0, output_dt=0.2)
+        data = ow.simulate(small, 4.0, dt, ramp=1.0, save_at=ow.SaveAt(0.2))
         errors.append(np.abs(data["mudline_moment"].to_numpy() - moment).max() / np.ptp(moment))
     assert errors[-1] < 1e-3
     assert errors[0] > 3 * errors[1] > 9 * errors[2]

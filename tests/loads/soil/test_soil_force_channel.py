@@ -22,7 +22,9 @@ def lateral(system: ow.System) -> SoilSprings:
 
 
 def history(system: ow.System, **settings: Any) -> xr.Dataset:
-    return ow.simulate(system, 2.0, 0.01, heights=lateral(system).height.tolist(), **settings)
+    return ow.simulate(
+        system, 2.0, 0.01, save_at=ow.SaveAt(heights=lateral(system).height.tolist()), **settings
+    )
 
 
 @pytest.fixture(scope="module")

@@ -139,10 +139,9 @@ def test_a_load_that_knows_no_motion_does_not_damp(system: ow.System, disc: Roto
         data = ow.simulate(
             system,
             40.0,
-            0.02,
-            [history, ow.LoadHistory(np.array([0.0, 0.5, 1.0, 50.0]), kick, "kick")],
-            spectral_radius=1.0,
-            heights=[system.chain.top],
+            loads=[history, ow.LoadHistory(np.array([0.0, 0.5, 1.0, 50.0]), kick, "kick")],
+            integrator=ow.GeneralizedAlpha(ow.FixedStep(0.02), 1.0),
+            save_at=ow.SaveAt(heights=[system.chain.top]),
         )
         x = data["tower_top_displacement"].sel(direction="x").to_numpy()
         x = x - x[0]
@@ -222,7 +221,9 @@ def test_zero_memory_is_equilibrium(system: ow.System, disc: RotorDisc) -> None:
         thrust = RotorThrust(disc, constant_wind(BELOW), control, inflow_lag=lag)
         state = ow.static(system, loads=[thrust])
         assert np.max(np.abs(state.memory), initial=0.0) < 1e-9
-        data = ow.simulate(system, 2.0, 0.05, [thrust], heights=[system.chain.top])
+        data = ow.simulate(
+            system, 2.0, 0.05, [thrust], save_at=ow.SaveAt(heights=[system.chain.top])
+        )
         x = data["tower_top_displacement"].sel(direction="x").to_numpy()
         assert np.ptp(x) < 1e-7 * abs(x[0])
         prescribed = ow.static(system, thrust.steady_load())
@@ -277,11 +278,9 @@ def in_gusts(system: ow.System, disc: RotorDisc, dt: float) -> tuple[Array, floa
     data = ow.simulate(
         system,
         12.0,
-        dt,
-        [thrust],
-        output_dt=0.4,
-        spectral_radius=0.8,
-        heights=[system.chain.top],
+        loads=[thrust],
+        save_at=ow.SaveAt(0.4, heights=[system.chain.top]),
+        integrator=ow.GeneralizedAlpha(ow.FixedStep(dt), 0.8),
     )
     worked = float(np.max(np.abs(data["energy_worked"])))
     left = float(np.max(np.abs(data["energy_balance"]))) / worked
@@ -336,7 +335,7 @@ def test_a_stopped_run_goes_on_to_the_same_results(
     """The lags' memory is part of the state: resumed after 20 s, the run ends bitwise the same."""
     wind = ow.RotorWind(9.0, 0.14, seed=3).generate(disc, repeat_period=40.0)
     thrust = RotorThrust(disc, wind, inflow_lag=True)
-    settings = {"ramp": 5.0, "output_dt": 0.1, "heights": [system.chain.top]}
+    settings = {"ramp": 5.0, "save_at": ow.SaveAt(0.1, heights=[system.chain.top])}
 
     def stop(time: float) -> None:
         if time < 21:

@@ -8,7 +8,6 @@ from helpers.hydrodynamics import upright
 from scipy.integrate import quad
 
 import offwind_pin as ow
-from offwind_pin.analysis.tower_drag import tower_drag
 from offwind_pin.base.definition import Array
 from offwind_pin.loads.sea.forces.morison import MorisonForce
 from offwind_pin.loads.wind.profiles import (
@@ -18,7 +17,7 @@ from offwind_pin.loads.wind.profiles import (
     Profile,
     WindSeries,
 )
-from offwind_pin.loads.wind.tower_drag import TowerDrag, TowerWind
+from offwind_pin.loads.wind.tower_drag import TowerDrag, TowerWind, tower_drag
 from offwind_pin.structure.section import outer_diameter
 
 CALM = TowerWind(12.0, 119.0, PowerLaw(0.14), 0.65)
@@ -152,7 +151,7 @@ def test_the_base_bears_the_wind(system: ow.System) -> None:
 
 def test_a_steady_wind_in_time_stays_at_its_static_state(system: ow.System) -> None:
     load = tower_drag(system, CALM)
-    data = ow.simulate(system, 4.0, 0.02, [load], output_dt=0.5)
+    data = ow.simulate(system, 4.0, 0.02, [load], save_at=ow.SaveAt(0.5))
     static = ow.static(system, loads=[load])
     top = data["displacement"].sel(direction="x").isel(height=-1).to_numpy()
     assert top == pytest.approx(np.full(len(top), static.tower_top_displacement[0]), rel=1e-6)

@@ -7,16 +7,21 @@ from pathlib import Path
 
 import numpy as np
 
+from offwind_pin.base.channels import Channel
 from offwind_pin.base.definition import Array, origin_of
 from offwind_pin.base.errors import InputError
 from offwind_pin.base.number_tables import read_time_columns
-from offwind_pin.loads.point_load import Channel, KernelLoad, force_kernel, no_tangents
+from offwind_pin.loads.point_load import KernelLoad, force_kernel, no_tangents
 
 COMPONENTS = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
 LARGEST_LOAD = 1e10
 """N or N m, beyond the loads of any turbine."""
 _COARSEST, _SAMPLED = 0.99, 1000
 """Step in s beyond which files of more than so many rows are more likely in ms."""
+
+TOWER_TOP_LOAD = Channel(
+    "tower_top_load", ("component",), "N for F, N m for M", "load applied at the yaw bearing"
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,11 +125,10 @@ class TowerTopLoad(KernelLoad):
 
     @property
     def channels(self) -> tuple[Channel, ...]:
-        about = "load applied at the yaw bearing"
-        return (Channel("tower_top_load", ("component",), "N for F, N m for M", about),)
+        return (TOWER_TOP_LOAD,)
 
     def outputs(self, time: Array, ramp_factor: Array) -> dict[str, Array]:
-        return {"tower_top_load": self.time_inputs(time, ramp_factor)}
+        return {TOWER_TOP_LOAD.name: self.time_inputs(time, ramp_factor)}
 
     def attributes(self) -> dict[str, str]:
         return {"tower_top_load_origin": self.history.origin}

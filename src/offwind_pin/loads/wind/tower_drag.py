@@ -11,22 +11,24 @@ from pydantic import Field
 
 from offwind_pin.base.definition import (
     Array,
-    Definition,
     Direction,
     NonNegative,
     Positive,
     key,
 )
+from offwind_pin.base.errors import InputError
+from offwind_pin.loads.load_definition import LoadDefinition, Structure
 from offwind_pin.loads.point_load import KernelLoad
 from offwind_pin.loads.sea.forces.morison import morison_forces, morison_tangents
 from offwind_pin.loads.sea.forces.strips import Strips
 from offwind_pin.loads.wind.profiles import Gust, PowerLaw, Profile
+from offwind_pin.structure.section import outer_diameter
 
 STRIP_LENGTH = 1.0
 """Longest strip of the tower in m: with the power law's 0.14 its drag is met within 1e-4."""
 
 
-class TowerWind(Definition, kw_only=False):
+class TowerWind(LoadDefinition, kw_only=False):
     """Wind that blows past the tower.
 
     Attributes
@@ -58,6 +60,9 @@ class TowerWind(Definition, kw_only=False):
     air_density: Annotated[Positive, Field(ge=0.5, le=2)] = key(
         "air_density_kg_per_m3", default=1.225, kw_only=True
     )
+
+    def on(self, structure: Structure) -> TowerDrag:
+        return tower_drag(structure, self)
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,3 +102,36 @@ class TowerDrag(KernelLoad):
         rows = np.zeros((len(time), 1 + 6 * len(self.height)))
         rows[:, 1 : 1 + 3 * len(self.height)] = (speed[:, :, None] * towards).reshape(len(time), -1)
         return rows
+
+
+def tower_drag(system: Structure, wind: TowerWind) -> TowerDrag:
+    """Drag of a wind on a system's structure, for ``simulate(loads=[...])`` and ``static``.
+
+    It acts from the highest water level, or from still water level of a dry structure, up to the
+    yaw bearing.
+
+    Raises
+    ------
+    InputError
+        Nothing of the structure is above water.
+    """
+    low, top = max(_water_line(system), system.chain.base), system.chain.top
+    if low >= top:
+        raise InputError(
+            "tower wind",
+            f"a structure up to z = {top:g} m",
+            f"one that reaches above the water (z = {low:g} m)",
+            "Leave the wind out.",
+        )
+    count = int(np.ceil((top - low) / STRIP_LENGTH))
+    edges = np.linspace(low, top, count + 1)
+    height = (edges[:-1] + edges[1:]) / 2
+    strips = Strips(height, np.diff(edges), outer_diameter(system.turbine, height))
+    return TowerDrag(strips, wind)
+
+
+def _water_line(system: Structure) -> float:
+    """Height in m that the water does not exceed; still water level of a dry structure."""
+    if system.hydrodynamics is None:
+        return 0.0
+    return system.hydrodynamics.surface.highest

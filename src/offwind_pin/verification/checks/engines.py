@@ -69,8 +69,7 @@ def motion(duration: float) -> float:
         simulate(
             _system(),
             duration,
-            0.02,
-            [push],
+            loads=[push],
             ramp=duration / 4,
             integrator=GeneralizedAlpha(FixedStep(0.02), 0.9, 1e-12, 1e-13),
             engine=name,

@@ -26,6 +26,7 @@ from offwind_pin.loads.sea.irregular_waves import IrregularWaves
 from offwind_pin.loads.tower_top.load_history import LoadHistory
 from offwind_pin.loads.wind.history import constant_wind
 from offwind_pin.loads.wind.rotor_thrust import Control, RotorThrust
+from offwind_pin.results.save_at import SaveAt
 from offwind_pin.signal.moment_spectrum import moment_spectrum
 from offwind_pin.solvers.steps import FixedStep
 from offwind_pin.verification.ledger import Found
@@ -50,9 +51,8 @@ def _pushed(integrator: GeneralizedAlpha | SciPyIVP) -> Array:
         8.0,
         loads=[LoadHistory(time, load, "smooth")],
         ramp=4.0,
-        output_dt=0.2,
+        save_at=SaveAt(0.2, heights=(0.0,)),
         integrator=integrator,
-        heights=[0.0],
     )
     return data["mudline_moment"].to_numpy()
 
@@ -151,8 +151,7 @@ def _undamped_bands() -> tuple[float, float]:
         analysis.dt,
         tower_top(case, turbine, analysis).loads,
         ramp=analysis.ramp,
-        output_dt=analysis.output_dt,
-        heights=[0.0],
+        save_at=SaveAt(analysis.output_dt, heights=(0.0,)),
     )
     first, second = moment_spectrum(data, analysis.psd_segment, {}).bands
     return first.area, second.area
@@ -212,10 +211,9 @@ def decay_after_a_kick(
     data = simulate(
         system,
         40.0,
-        0.02,
-        [thrust, history],
-        spectral_radius=spectral_radius,
-        heights=[system.chain.top],
+        loads=[thrust, history],
+        integrator=GeneralizedAlpha(FixedStep(0.02), spectral_radius),
+        save_at=SaveAt(heights=(system.chain.top,)),
     )
     time = data["time"].to_numpy()
     x = data["tower_top_displacement"].sel(direction="x").to_numpy()

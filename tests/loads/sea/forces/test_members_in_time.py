@@ -6,10 +6,9 @@ import xarray as xr
 from helpers.numerics import fitted_order
 
 import offwind_pin as ow
-from offwind_pin.analysis.tower_drag import tower_drag
 from offwind_pin.definitions.hydrodynamics import FloodedPile, MarineGrowth
 from offwind_pin.loads.wind.profiles import ExtremeOperatingGust, PowerLaw
-from offwind_pin.loads.wind.tower_drag import TowerWind
+from offwind_pin.loads.wind.tower_drag import TowerWind, tower_drag
 
 STEPS = np.array([0.04, 0.02, 0.01])
 
@@ -37,8 +36,7 @@ def runs(oc6: ow.Turbine) -> list[xr.Dataset]:
             dt,
             [wind],
             ramp=8.0,
-            output_dt=0.2,
-            segments=[(-30.0, -9.0), (-9.0, 40.0)],
+            save_at=ow.SaveAt(0.2, segments=[(-30.0, -9.0), (-9.0, 40.0)]),
         )
         for dt in STEPS.tolist()
     ]

@@ -7,13 +7,13 @@ from functools import cached_property
 
 import numpy as np
 
+from offwind_pin.base.channels import Channel
 from offwind_pin.base.definition import Array
 from offwind_pin.loads.point_load import (
     AXIS,
     BY_AXIS,
     BY_VELOCITY,
     VELOCITY,
-    Channel,
     KernelLoad,
     force_kernel,
     tangent_kernel,
@@ -27,6 +27,14 @@ _SURFACE, _FLUID = range(2)
 """Among the time inputs: height of the surface, and where the velocities (n, 3) begin; the
 accelerations (n, 3) follow."""
 _V = VELOCITY.start
+
+WAVE_ELEVATION = Channel(
+    "wave_elevation",
+    (),
+    "m",
+    "surface elevation of the undisturbed wave at x = 0, relative to the mean water level",
+    openfast_alias="Wave1Elev",
+)
 
 
 @force_kernel
@@ -132,8 +140,7 @@ class MorisonForce(KernelLoad):
 
     @property
     def channels(self) -> tuple[Channel, ...]:
-        about = "surface elevation of the undisturbed wave at x = 0, about the mean water level"
-        return (Channel("wave_elevation", (), "m", about),)
+        return (WAVE_ELEVATION,)
 
     def outputs(self, time: Array, ramp_factor: Array) -> dict[str, Array]:
-        return {"wave_elevation": self.water.elevation(time, ramp_factor)}
+        return {WAVE_ELEVATION.name: self.water.elevation(time, ramp_factor)}
