@@ -136,7 +136,10 @@ FAULTS: dict[str, tuple[dict[str, Any], list[str]]] = {
     "start before the beginning": (RECORD | {"start_s": -1.0}, ["start_s"]),
     "start after the end": (RECORD | {"start_s": 30.0}, ["a start at 30 s"]),
     "baseline": (RECORD | {"baseline": "linear"}, ["parabolic"]),
-    "at2 with a unit": ({"at2": {"x": "a.AT2"}, "acceleration_unit": "g"}, ["at2 files are in g"]),
+    "at2 with a unit": (
+        {"at2": {"x": "a.AT2"}, "acceleration_unit": "g"},
+        ["at2 files name their unit"],
+    ),
     "file and levels": (
         RECORD | {"levels": [RECORD | {"z_m": -20.0}, RECORD | {"z_m": -75.0}]},
         ["to each of them"],

@@ -256,7 +256,19 @@ TEXT_FAULTS = {
     "truncated file": ("site: {water_depth_m: 30,\n", "line"),
     "key given twice": ("name: a\nname: b\n", "given twice"),
     "a list": ("- 1\n- 2\n", "mapping"),
-    "a date that is none": ("name: 2001-99-99\n", "valid YAML"),
+    "nested without end": ("a: " + "[" * 100_000 + "\n", "levels of nesting"),
+    "an alias bomb": (
+        "a0: &a0 [x, x, x, x, x, x, x, x, x, x]\n"
+        + "".join(f"a{i}: &a{i} [{', '.join([f'*a{i - 1}'] * 10)}]\n" for i in range(1, 30)),
+        "aliases that expand",
+    ),
+    "an alias within itself": ("a: &a [1, *a]\n", "within its own anchor"),
+    "a huge integer": ("a: " + "9" * 5000 + "\n", "5000 digits"),
+    "two documents": ("a: 1\n---\na: 2\n", "document"),
+    "a NUL": ("name: a\0b\n", "control characters"),
+    "a set": ("materials: !!set {steel}\n", "the tag"),
+    "a list as a key": ("? [1, 2]\n: 3\n", "key must be a name"),
+    "megabytes": ("# " + "x" * 3_000_000 + "\n", "at most"),
     "nested too deep": ("a: " + "[" * 3000 + "\n", "valid YAML"),
     "a Python object": ("name: !!python/object/apply:os.system ['true']\n", "valid YAML"),
 }

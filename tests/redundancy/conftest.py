@@ -2,6 +2,7 @@
 
 import itertools
 from dataclasses import replace
+from functools import cache
 
 import pytest
 from helpers.dampers import several
@@ -23,16 +24,21 @@ def _name(value: tuple[str, str]) -> str:
     return ", ".join(value)
 
 
+@cache
+def _coarse(foundation: str, element: Element) -> ow.System:
+    """Built once for all files: to calibrate a macro-element takes seconds."""
+    turbine = ow.load_turbine("oc6_phase2").model_copy(update={"structural_damping": None})
+    if foundation in GROUNDS:
+        turbine, foundation = GROUNDS[foundation](turbine), "distributed_springs"
+    return ow.build(turbine, foundation, ow.StillWater(), elements=7, element=element)
+
+
 @pytest.fixture(
     scope="session", params=itertools.product((*FOUNDATIONS, *GROUNDS), ELEMENTS), ids=_name
 )
-def any_system(undamped: ow.Turbine, request: pytest.FixtureRequest) -> ow.System:
+def any_system(request: pytest.FixtureRequest) -> ow.System:
     """A coarse system on each foundation and ground, of each kind of element, in still water."""
-    foundation, element = request.param
-    turbine = undamped
-    if foundation in GROUNDS:
-        turbine, foundation = GROUNDS[foundation](undamped), "distributed_springs"
-    return ow.build(turbine, foundation, ow.StillWater(), elements=7, element=element)
+    return _coarse(*request.param)
 
 
 @pytest.fixture(scope="session")

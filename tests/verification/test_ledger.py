@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import logging
 import math
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -12,20 +13,31 @@ import pytest
 
 import offwind_pin as ow
 from offwind_pin.verification import ledger
+from offwind_pin.verification.checks import motion
 from offwind_pin.verification.ledger import Found, Row, check, choose, read_ledger, verify
 from offwind_pin.verification.page import verification_page
+
+Shipped = Callable[[str], tuple[dict[str, Any], Path]]
 
 ROWS = read_ledger()
 PAGE = Path(__file__).resolve().parents[2] / "VERIFICATION.md"
 
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row.id)
-def test_row(row: Row) -> None:
+def test_row(row: Row, shipped: Shipped, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Load cases are run once for these rows and for the tests of the cases."""
+    monkeypatch.setattr(motion, "_load_case", lambda name: shipped(name)[0])
     outcome = check(row)
     if outcome.status == "not run":
         assert row.needs not in {None, "mujoco"}  # which is in the development group
         pytest.skip(str(outcome.reason))
     assert outcome.status == "pass", f"{outcome.value} against {outcome.reference}"
+
+
+def test_load_cases_of_the_rows_are_run() -> None:
+    """Outside of these tests, where nothing is shared, a row runs its case itself."""
+    summary = motion._load_case("oc6-lc2.1")
+    assert summary["FA1_hz"] == pytest.approx(0.2744, rel=3e-3)
 
 
 def test_there_are_many_rows_with_sources() -> None:

@@ -39,7 +39,7 @@ from offwind_pin.results.blocks import BLOCK_FOLDER, Block, BlockStore, FolderSt
 from offwind_pin.results.channels import CHANNELS
 from offwind_pin.results.dataset import HistoryWriter, versions
 from offwind_pin.results.save_at import SaveAt
-from offwind_pin.solvers.steps import FixedStep
+from offwind_pin.solvers.steps import MOST_OUTPUTS, FixedStep
 
 _log = logging.getLogger(__name__)
 
@@ -149,6 +149,9 @@ def simulate(
             "Give SaveAt(output_dt=...).",
         )
     engine = engine_of(method, engine)
+    if duration / interval > MOST_OUTPUTS:
+        allowed = f"{MOST_OUTPUTS:.3g} outputs at most"
+        raise InputError("output_dt", interval, allowed, "Choose a longer one.")
     outputs = round(duration / interval)
     if abs(outputs * interval - duration) > 1e-6 * duration:
         raise InputError(

@@ -32,7 +32,16 @@ Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 
-def _reject_bool(value: Any) -> Any:
+LARGEST = 1e30
+"""Magnitude beyond which no number is plausible, whatever its unit; products stay finite."""
+MOST_NUMBERS = 1_000_000
+"""In a row; more belong in a file of their own."""
+
+
+def _plain(value: Any) -> Any:
+    """A number as Python has it; NumPy's are taken, true and false are not."""
+    if isinstance(value, np.generic):
+        value = value.item()
     if isinstance(value, bool):
         raise ValueError("a number is needed, not true or false")
     return value
@@ -62,15 +71,24 @@ def _file_record(path: Path) -> dict[str, str | None]:
     return {"path": str(path), "sha256": file_digest(path) if is_file(path) else None}
 
 
-Number = Annotated[float, BeforeValidator(_reject_bool), Field(allow_inf_nan=False)]
+Number = Annotated[
+    float,
+    Field(strict=True, allow_inf_nan=False, ge=-LARGEST, le=LARGEST),
+    BeforeValidator(_plain),
+]
+"""A finite number; text that looks like one is none."""
+Integer = Annotated[int, Field(strict=True), BeforeValidator(_plain)]
+"""A whole number; 3.0 is none."""
+Flag = Annotated[bool, Field(strict=True)]
+"""True or false; 1 and "yes" are neither."""
 Positive = Annotated[Number, Field(gt=0)]
 NonNegative = Annotated[Number, Field(ge=0)]
 Vector3 = tuple[Number, Number, Number]
 Vector6 = tuple[Number, Number, Number, Number, Number, Number]
 Direction = Annotated[Number, Field(ge=-360, le=360)]
 """In degrees."""
-Seed = Annotated[int, BeforeValidator(_reject_bool), Field(ge=0, lt=2**31)]
-Numbers = Annotated[tuple[Number, ...], BeforeValidator(_listed)]
+Seed = Annotated[Integer, Field(ge=0, lt=2**31)]
+Numbers = Annotated[tuple[Number, ...], Field(max_length=MOST_NUMBERS), BeforeValidator(_listed)]
 """Numbers in a row, from a list, a tuple or a one-dimensional array."""
 File = Annotated[Path, WrapValidator(_locate), PlainSerializer(_file_record, when_used="json")]
 """Absolute path of a file. JSON has ``{path, sha256}``; reading it refuses a file that changed."""

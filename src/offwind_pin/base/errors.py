@@ -39,8 +39,18 @@ class InputError(OffwindError, ValueError):
         self.received = received
         self.allowed = allowed
         self.remedy = remedy
-        fault = f"got {_shorten(received)}; allowed: {allowed}" if allowed else str(received)
-        super().__init__(f"{where}: {fault}. {remedy}")
+        if allowed:
+            # A phrase about the value is shown as it is, without quotes.
+            phrase = isinstance(received, str) and " " in received
+            shown = _cut(received, _LONGEST) if phrase else brief(received)  # type: ignore[arg-type]
+            fault = f"got {shown}; allowed: {allowed}"
+        else:
+            fault = _cut(str(received), 4 * _LONGEST)
+        super().__init__(printable(f"{_cut(where, _LONGEST_PLACE)}: {fault}. {remedy}"))
+
+    def within(self, where: str) -> InputError:
+        """The same error found within something else, such as a file that names another."""
+        return type(self)(f"{where}: {self.where}", self.received, self.allowed, self.remedy)
 
     def __reduce__(self) -> tuple[Any, ...]:
         state = self.__dict__ | {"received": _portable(self.received)}
@@ -117,8 +127,51 @@ def _portable(value: object) -> object:
     return value
 
 
-def _shorten(value: object, limit: int = 240) -> str:
-    # 18.0 rather than np.float64(18.0); NumPy is not imported for the sake of messages.
-    plain = getattr(value, "item", lambda: value)() if getattr(value, "shape", 1) == () else value
-    text = plain if isinstance(plain, str) and " " in plain else repr(plain)
+_LONGEST = 240
+"""Characters of a value in a message."""
+_LONGEST_PLACE = 5000
+
+
+def brief(value: object, limit: int = _LONGEST) -> str:
+    """A value as text of limited length; no more of it is looked at than is shown."""
+    return _cut(_beginning(value, limit), limit)
+
+
+def _cut(text: str, limit: int) -> str:
     return text if len(text) <= limit else text[: limit - 3] + "..."
+
+
+def printable(text: str) -> str:
+    """A text without characters that move the cursor, colour or reorder a terminal's lines."""
+    if text.isprintable():
+        return text
+    return "".join(
+        one if one.isprintable() else one.encode("unicode_escape").decode() for one in text
+    )
+
+
+def _beginning(value: object, limit: int) -> str:
+    # 18.0 rather than np.float64(18.0); NumPy is not imported for the sake of messages.
+    if getattr(value, "shape", 1) == ():
+        value = getattr(value, "item", lambda: value)()
+    if isinstance(value, str):
+        return repr(value[: limit + 1])
+    if isinstance(value, int) and value.bit_length() > 4 * limit:
+        return f"an integer of {value.bit_length()} bits"
+    if not isinstance(value, dict | list | tuple):
+        return repr(value)
+    opening, closing = (
+        "{}" if isinstance(value, dict) else "[]" if isinstance(value, list) else "()"
+    )
+    text = opening
+    for item in value.items() if isinstance(value, dict) else value:
+        if len(text) > limit:
+            return text
+        left = limit - len(text)
+        shown = (
+            f"{_beginning(item[0], left)}: {_beginning(item[1], left)}"
+            if isinstance(value, dict)
+            else _beginning(item, left)
+        )
+        text += shown if text == opening else f", {shown}"
+    return text + ("," if isinstance(value, tuple) and len(value) == 1 else "") + closing

@@ -8,7 +8,7 @@ from typing import Any
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
-from offwind_pin.base.errors import InputError
+from offwind_pin.base.errors import InputError, brief
 
 Schema = dict[str, Any]
 Place = tuple[int | str, ...]
@@ -28,11 +28,14 @@ def input_error(
     by_alias : bool
         Whether fields are named as in a file, or as in Python.
     """
-    found = sorted(error.errors(), key=lambda item: item["type"] != "extra_forbidden")
+    found = sorted(
+        error.errors(include_url=False), key=lambda item: item["type"] != "extra_forbidden"
+    )
     first = found[0]
     cause = first.get("ctx", {}).get("error")
     if isinstance(cause, InputError):  # of another file that this one names
-        return cause
+        cause_of = _dotted(first["loc"]) if first["loc"] else ""
+        return cause.within(f"{where}, field {cause_of}" if cause_of else where)
     names = {} if by_alias else {_alias(model, name): name for name in model.model_fields}
     places = [_place(item, data, names) for item in found]
     location = places[0]
@@ -41,7 +44,7 @@ def input_error(
     where = f"{where}, field {_dotted(location)}" if location else where
     if first["type"] == "extra_forbidden":
         known = _known_keys(model, location[:-1], data, by_alias=by_alias)
-        near = difflib.get_close_matches(str(location[-1]), known, n=1, cutoff=0.5)
+        near = difflib.get_close_matches(str(location[-1])[:100], known, n=1, cutoff=0.5)
         remedy = f"Did you mean {near[0]!r}?" if near else "Remove it."
         return InputError(where, "an unknown key", ", ".join(known), remedy + more)
     if first["type"] == "missing":
@@ -75,7 +78,9 @@ def _alias(model: type[BaseModel], name: str) -> str:
 
 
 def _dotted(place: Place) -> str:
-    return ".".join(map(str, place))
+    return ".".join(
+        part if isinstance(part, str) and len(part) <= 80 else brief(part, 80) for part in place
+    )
 
 
 def _sentence(remedy: str) -> str:

@@ -9,7 +9,15 @@ from pydantic import AfterValidator, BeforeValidator, Field, ValidationInfo, mod
 
 from offwind_pin.analysis.build import build
 from offwind_pin.analysis.foundation.registry import FOUNDATIONS
-from offwind_pin.base.definition import Definition, NonNegative, Number, Positive, Seed, key
+from offwind_pin.base.definition import (
+    Definition,
+    Integer,
+    NonNegative,
+    Number,
+    Positive,
+    Seed,
+    key,
+)
 from offwind_pin.base.input_files import is_file
 from offwind_pin.cases.schema.tower_top import TowerTopLoadChoice
 from offwind_pin.cases.shipped import shipped_cases
@@ -23,6 +31,7 @@ from offwind_pin.loads.load_definition import LoadDefinition
 from offwind_pin.loads.sea.sea import DrySea, Sea
 from offwind_pin.loads.sea.seas import SeaChoice
 from offwind_pin.loads.wind.tower_drag import TowerWind
+from offwind_pin.solvers.steps import MOST_OUTPUTS
 from offwind_pin.structure.chain import MOST_ELEMENTS
 
 
@@ -43,6 +52,7 @@ def _load_turbine(value: Any, info: ValidationInfo) -> Any:
 FoundationName = Annotated[str, AfterValidator(_known_foundation)]
 TurbineChoice = Annotated[Turbine, BeforeValidator(_load_turbine)]
 """A turbine, or in a file also a shipped name or the path of a turbine file."""
+ElementCount = Annotated[Integer, Field(ge=1, le=MOST_ELEMENTS)]
 
 
 _COARSEST_OUTPUT = 0.3
@@ -74,7 +84,7 @@ class OperationalModesSettings(Definition):
 
     duration: Annotated[Positive, Field(ge=600, le=1e5)] = key("duration_s")
     segment: Annotated[Positive, Field(ge=20)] = key("segment_s")
-    nodes: Annotated[int, Field(ge=3, le=60)] = 13
+    nodes: Annotated[Integer, Field(ge=3, le=60)] = 13
 
     @model_validator(mode="after")
     def _holds_segments(self) -> OperationalModesSettings:
@@ -95,7 +105,7 @@ class ModalAnalysis(Definition):
 
     kind: Literal["modes"]
     engine: Engine = "compiled"
-    count: Annotated[int, Field(ge=1, le=50)] = 8
+    count: Annotated[Integer, Field(ge=1, le=50)] = 8
     identify: OperationalModesSettings | None = None
 
 
@@ -109,7 +119,7 @@ class TransientAnalysis(Definition):
     engine: Engine = "compiled"
     duration: Annotated[Positive, Field(le=1e5)] = key("duration_s")
     ramp: NonNegative = key("ramp_s")
-    dt: Annotated[Positive, Field(le=1)] = key("dt_s")
+    dt: Annotated[Positive, Field(ge=1e-5, le=1)] = key("dt_s")
     output_dt: Positive = key("output_dt_s")
     psd_segment: Positive = key("psd_segment_s")
 
@@ -118,6 +128,11 @@ class TransientAnalysis(Definition):
         if self.ramp >= self.duration:
             raise ValueError(
                 f"ramp_s = {self.ramp} leaves nothing of duration_s = {self.duration}; shorten it"
+            )
+        if self.duration / self.output_dt > MOST_OUTPUTS:
+            raise ValueError(
+                f"output_dt_s = {self.output_dt} gives more than {MOST_OUTPUTS:.3g} outputs in "
+                f"duration_s = {self.duration}; lengthen it"
             )
         if self.output_dt > _COARSEST_OUTPUT:
             raise ValueError(
@@ -161,7 +176,7 @@ class Case(Definition):
         StaticAnalysis | ModalAnalysis | TransientAnalysis, Field(discriminator="kind")
     ]
     seed: Seed = 1
-    elements: Annotated[int, Field(ge=1, le=MOST_ELEMENTS)] | dict[str, int] | None = None
+    elements: ElementCount | dict[str, ElementCount] | None = None
     element: Element = "euler_bernoulli"
     published: tuple[PublishedValue, ...] = ()
 

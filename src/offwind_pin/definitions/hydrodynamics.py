@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import Discriminator, Field, Tag, model_validator
 
-from offwind_pin.base.definition import Array, Definition, NonNegative, Number, Positive
+from offwind_pin.base.definition import Array, Definition, Flag, NonNegative, Number, Positive
 
 Height = Annotated[Number, Field(ge=-1000, le=1000)]
 CoefficientValue = Annotated[NonNegative, Field(le=10)]
@@ -162,7 +162,7 @@ class Hydrodynamics(Definition):
     diffraction: Literal["none", "maccamy_fuchs"] = "none"
     marine_growth: tuple[MarineGrowth, ...] = ()
     contents: Contents = SealedPile(kind="sealed")
-    buoyancy: bool = True
+    buoyancy: Flag = True
 
     @model_validator(mode="after")
     def _layers_rise(self) -> Hydrodynamics:

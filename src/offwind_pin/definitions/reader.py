@@ -7,13 +7,13 @@ from importlib import resources
 from pathlib import Path
 from typing import Any, TypeVar
 
-import yaml
 from pydantic import ValidationError
 
 from offwind_pin.base.definition import Definition
 from offwind_pin.base.errors import InputError
 from offwind_pin.base.input_files import is_file
 from offwind_pin.base.validation import input_error
+from offwind_pin.base.yaml_files import read_yaml
 from offwind_pin.definitions.shipped import shipped_turbines
 from offwind_pin.definitions.turbine import Turbine
 
@@ -62,56 +62,18 @@ def read_definition(path: Path, kind: type[Kind]) -> Kind:
     InputError
         The file is empty, not YAML, or does not fit the definition.
     """
-    data = _read_yaml(path)
+    return definition_of(read_yaml(path), path, kind)
+
+
+def definition_of(data: dict[str, Any], path: Path, kind: type[Kind]) -> Kind:
+    """A definition from the content of a file.
+
+    Raises
+    ------
+    InputError
+        The content does not fit the definition.
+    """
     try:
         return kind.model_validate(data, context={"folder": path.parent})
     except ValidationError as error:
         raise input_error(str(path), data, error, kind, by_alias=True) from None
-
-
-class _UniqueKeyLoader(yaml.SafeLoader):
-    """Safe loader that refuses a key given twice (YAML would keep the last in silence)."""
-
-
-def _mapping(loader: _UniqueKeyLoader, node: yaml.MappingNode) -> dict[Any, Any]:
-    seen: dict[Any, Any] = {}
-    for key_node, value_node in node.value:
-        key = loader.construct_object(key_node, deep=True)
-        if isinstance(key, list | dict):
-            raise yaml.MarkedYAMLError(problem="a key must be a name", problem_mark=node.start_mark)
-        if key in seen:
-            raise yaml.MarkedYAMLError(
-                problem=f"key {key!r} is given twice", problem_mark=key_node.start_mark
-            )
-        seen[key] = loader.construct_object(value_node, deep=True)
-    return seen
-
-
-_UniqueKeyLoader.add_constructor(yaml.resolver.BaseResolver.DEFAULT_MAPPING_TAG, _mapping)
-
-
-def _read_yaml(path: Path) -> dict[str, Any]:
-    try:
-        data = yaml.load(path.read_text(encoding="utf-8"), Loader=_UniqueKeyLoader)  # noqa: S506
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(
-            str(path), str(error), "a readable UTF-8 text file", "Check the file and its encoding."
-        ) from None
-    except yaml.YAMLError as error:
-        mark = getattr(error, "problem_mark", None)
-        place = f"{path}, line {mark.line + 1}" if mark else str(path)
-        problem = getattr(error, "problem", None) or "not YAML"
-        raise InputError(
-            place, problem, "valid YAML", "Correct the line; is the file complete?"
-        ) from None
-    except (ValueError, TypeError, RecursionError) as error:
-        raise InputError(
-            str(path), str(error), "valid YAML of numbers, texts, lists and mappings", "Correct it."
-        ) from None
-    if data is None:
-        raise InputError(str(path), "an empty file", "a YAML mapping", "Fill in the definition.")
-    if not isinstance(data, dict):
-        raise InputError(
-            str(path), data, "a YAML mapping of keys to values", "Start from a shipped file."
-        )
-    return data

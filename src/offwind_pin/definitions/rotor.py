@@ -7,7 +7,7 @@ from typing import Annotated
 import numpy as np
 from pydantic import Field, model_validator
 
-from offwind_pin.base.definition import Definition, NonNegative, Number, Positive
+from offwind_pin.base.definition import Definition, Integer, NonNegative, Number, Positive
 
 WindSpeed = Annotated[Positive, Field(le=100)]
 
@@ -80,7 +80,7 @@ class Rotor(Definition):
         alias="air_density_kg_per_m3", default=_STANDARD_AIR
     )
     radius: Annotated[Positive, Field(le=200)] | None = Field(alias="radius_m", default=None)
-    blades: Annotated[int, Field(ge=1, le=6)] | None = None
+    blades: Annotated[Integer, Field(ge=1, le=6)] | None = None
     overhang: Annotated[Number, Field(ge=-50, le=50)] | None = Field(
         alias="overhang_m", default=None
     )

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from offwind_pin.base.definition import Definition, NonNegative, Number, Positive, key
+from offwind_pin.base.definition import Definition, Flag, NonNegative, Number, Positive, key
 
 ModeLabel = Annotated[str, Field(pattern=r"^(FA|SS|T|V)[1-9]$")]
 Ratio = Annotated[Positive, Field(lt=1)]
@@ -26,7 +26,7 @@ class _OfASystem(Definition):
     """
 
     foundation: str | None = None
-    still_water: bool | None = None
+    still_water: Flag | None = None
 
     def wet(self, *, in_water: bool) -> bool:
         """Whether that system is in water, for a run that is or is not."""

@@ -13,7 +13,14 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import BeforeValidator, Field, model_validator
 
-from offwind_pin.base.definition import Definition, NonNegative, Number, Positive, Vector3
+from offwind_pin.base.definition import (
+    Definition,
+    Integer,
+    NonNegative,
+    Number,
+    Positive,
+    Vector3,
+)
 from offwind_pin.base.descriptions import html_table
 from offwind_pin.base.errors import InputError
 from offwind_pin.definitions.hydrodynamics import Height, Hydrodynamics
@@ -162,7 +169,7 @@ class RotorNacelleRNA(Definition):
     """
 
     kind: Literal["rotor_nacelle"]
-    blades: Annotated[int, Field(ge=1, le=6)]
+    blades: Annotated[Integer, Field(ge=1, le=6)]
     blade: Blade
     hub_radius: Positive = Field(alias="hub_radius_m")
     precone: Angle = Field(alias="precone_deg")

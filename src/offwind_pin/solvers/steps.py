@@ -8,6 +8,11 @@ from typing import Protocol
 
 from offwind_pin.base.errors import InputError
 
+MOST_STEPS = 100_000
+"""Of an interval between two outputs."""
+MOST_OUTPUTS = 10_000_000
+"""Of a time history: a day at 100 Hz."""
+
 
 class StepPolicy(Protocol):
     """Chooses the number of steps of an interval, from how the one before it went."""
@@ -43,7 +48,7 @@ class FixedStep:
         _check_positive("dt", self.dt)
 
     def first(self, interval: float) -> int:
-        steps = round(interval / self.dt)
+        steps = _bounded("dt", self.dt, interval / self.dt)
         if steps < 1 or abs(steps * self.dt - interval) > 1e-6 * interval:
             allowed = f"a multiple of dt = {self.dt} s"
             raise InputError("output_dt", interval, allowed, "Adjust one of them.")
@@ -86,6 +91,7 @@ class AdaptiveStep:
             raise InputError("smallest", self.smallest, allowed, "Exchange them.")
 
     def first(self, interval: float) -> int:
+        _bounded("smallest", self.smallest, interval / self.smallest)
         return max(1, math.ceil(interval / self.largest - 1e-9))
 
     def next(self, steps: int, error: float, interval: float) -> int:
@@ -101,6 +107,15 @@ class AdaptiveStep:
 
     def describe(self) -> dict[str, float | str]:
         return {"step_policy": "adaptive", "step_tolerance": self.tolerance}
+
+
+def _bounded(name: str, dt: float, steps: float) -> int:
+    """Whole number of steps of an interval, if there is memory for what depends on time in it."""
+    if steps > MOST_STEPS:
+        raise InputError(
+            name, dt, f"{MOST_STEPS} steps at most between two outputs", "Choose longer steps."
+        )
+    return round(steps)
 
 
 def _check_positive(name: str, value: float) -> None:

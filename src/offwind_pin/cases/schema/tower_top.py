@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from offwind_pin.base.definition import Definition, File, Number
+from offwind_pin.base.definition import Definition, File, Flag, Number
 from offwind_pin.formats.openfast.output import SUFFIXES
 from offwind_pin.loads.wind.rotor_load import RotorLoad
 from offwind_pin.loads.wind.synthetic_thrust import SyntheticWind
@@ -29,7 +29,7 @@ class FileSettings(Definition):
     azimuth_channel: str | None = None
     factor: Annotated[Number, Field(ge=-1e6, le=1e6)] = 1.0
     shift: Annotated[Number, Field(ge=-1e5, le=1e5)] = Field(alias="shift_s", default=0.0)
-    subtract_weight: bool = False
+    subtract_weight: Flag = False
 
     @model_validator(mode="after")
     def _means_something(self) -> FileSettings:

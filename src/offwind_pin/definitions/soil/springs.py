@@ -11,7 +11,15 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import AfterValidator, Discriminator, Field, Tag, model_validator
 
-from offwind_pin.base.definition import Array, Definition, File, NonNegative, Positive, Vector6
+from offwind_pin.base.definition import (
+    Array,
+    Definition,
+    File,
+    Integer,
+    NonNegative,
+    Positive,
+    Vector6,
+)
 from offwind_pin.definitions.soil.depth_profile import DepthProfile
 from offwind_pin.definitions.soil.layers import LayeredGround
 from offwind_pin.definitions.soil.ranges import check_skin_friction
@@ -235,7 +243,7 @@ class SoilDashpot(Definition):
 class Hysteresis(Definition):
     """Each spring as parallel Iwan sliders, which follow its curve and Masing's rules."""
 
-    sliders: Annotated[int, Field(ge=4, le=200)]
+    sliders: Annotated[Integer, Field(ge=4, le=200)]
 
 
 class DistributedSprings(Definition):
@@ -244,7 +252,7 @@ class DistributedSprings(Definition):
     Something must hold the pile vertically and in torsion: a stiffness at the toe or curves.
     """
 
-    nodes: Annotated[int, Field(ge=2, le=2000)]
+    nodes: Annotated[Integer, Field(ge=2, le=2000)]
     curve: Annotated[LateralCurve, Field(discriminator="kind")]
     vertical: Annotated[VerticalCurve, Field(discriminator="kind")] | None = None
     torsional: Annotated[TorsionalCurve, Field(discriminator="kind")] | None = None
@@ -307,7 +315,7 @@ class MacroElementCalibration(Definition):
     rotation_rad``, whose moment is the load times the arm, and the 6x6 is that of coupled_springs.
     """
 
-    surfaces: Annotated[int, Field(ge=5, le=200)] = 40
+    surfaces: Annotated[Integer, Field(ge=5, le=200)] = 40
     load_arm: NonNegative | None = Field(alias="load_arm_m", default=None)
     until_displacement: Positive | None = Field(alias="until_displacement_m", default=None)
     file: File | None = None

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import sys
 from http import HTTPStatus
+from http.client import HTTP_PORT
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from typing import Any
 
 from offwind_pin.base.errors import InputError
+from offwind_pin.display.report.templates import POLICY
 
 ADDRESS = "127.0.0.1"
 
@@ -19,27 +23,51 @@ def page_server(page: str, port: int = 0) -> ThreadingHTTPServer:
         A port that cannot be had.
     """
     content = page.encode()
+    names: list[list[str]] = []
 
     class Handler(BaseHTTPRequestHandler):
+        timeout = 60  # s, of a client that has connected and asks for nothing
+
         def do_GET(self) -> None:
+            # A page of another site whose name is made to resolve to this computer asks by its own.
+            if self.headers.get_all("Host") not in names:
+                self.send_error(HTTPStatus.FORBIDDEN, f"Only {ADDRESS} and localhost are served")
+                return
             if self.path.partition("?")[0] != "/":
                 self.send_error(HTTPStatus.NOT_FOUND, "There is one page, at /")
                 return
             self.send_response(HTTPStatus.OK)
             self.send_header("Content-Type", "text/html; charset=utf-8")
             self.send_header("Content-Length", str(len(content)))
+            self.send_header("X-Content-Type-Options", "nosniff")
             self.end_headers()
             self.wfile.write(content)
+
+        def end_headers(self) -> None:
+            self.send_header("Content-Security-Policy", f"{POLICY}; frame-ancestors 'none'")
+            super().end_headers()
 
         def log_message(self, *_: object) -> None:
             """Keep the terminal for the address."""
 
+    class Server(ThreadingHTTPServer):
+        daemon_threads = True  # a client that keeps its connection does not keep the process
+
+        def handle_error(self, request: Any, client_address: Any) -> None:
+            """Say nothing of a client that has gone away."""
+            if not isinstance(sys.exception(), ConnectionError | TimeoutError):
+                super().handle_error(request, client_address)
+
     try:
-        return ThreadingHTTPServer((ADDRESS, port), Handler)
+        server = Server((ADDRESS, port), Handler)
     except (OSError, OverflowError) as error:
         raise InputError(
             "--port", port, f"a port that is free ({error})", "Leave it out, and one is found."
         ) from None
+    names += [[f"{host}:{server.server_port}"] for host in (ADDRESS, "localhost")]
+    if server.server_port == HTTP_PORT:
+        names += [[ADDRESS], ["localhost"]]
+    return server
 
 
 def address(server: ThreadingHTTPServer) -> str:

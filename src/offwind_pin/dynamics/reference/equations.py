@@ -87,6 +87,7 @@ class Equations:
         self.model, self.data = system.pin_model, system.scratch.data
         self._ground_motion = ground_motion
         self._base_excitation = base_excitation_of(system, self.loads, ground_motion)
+        self._ground_now: tuple[float, Array] | None = None
         if ground_motion is not None:
             self.model = pin.Model(system.pin_model)  # its gravity will change
         heights = [np.zeros(0), *(load.height for load in self.loads)]
@@ -133,7 +134,7 @@ class Equations:
                 continue
             seen = points if time is None else self._seen(now, points)
             tangents = load.tangents(now, seen[part], ramp_factor, past)
-            moved = motion.derivatives(self.points[part], points[part]).position
+            moved = motion.position_derivatives(self.points[part], points[part].position)
             change = np.einsum("nij,njk->nik", tangents.inertia, moved)
             total -= np.tensordot(moved, change, axes=([0, 1], [0, 1]))
         return total
@@ -215,7 +216,11 @@ class Equations:
         """(P + 1, 3, 3) ground's displacement, velocity, acceleration at points and base."""
         if self._ground_motion is None:
             return self._base_excitation.at(np.zeros((0, 3, 3)))
-        return self._base_excitation.at(self._ground_motion.motion(np.array([time]))[0])
+        # A step asks for one instant again and again.
+        if self._ground_now is None or self._ground_now[0] != time:
+            moved = self._ground_motion.motion(np.array([time]))[0]
+            self._ground_now = time, self._base_excitation.at(moved)
+        return self._ground_now[1]
 
     def _lean(self, time: float) -> None:
         """Let gravity pull as it does seen from a base that accelerates."""
@@ -262,9 +267,10 @@ class Equations:
         seen = self._seen(time, state.points)
         ramp_factor = float(smooth_ramp(np.array(time), self.ramp_time))
         by_q, by_v, by_a = np.zeros((3, len(q), len(q)))
+        derivatives = state.motion.derivatives(self.points, state.points)
         for load, part, past in zip(self.loads, self._parts, self._memory[:-1], strict=True):
             tangents = load.tangents(time, seen[part], ramp_factor, past)
-            how = state.motion.derivatives(self.points[part], state.points[part])
+            how = derivatives[part]
             change = np.einsum("nij,njk->nik", tangents.stiffness, how.position)
             change += np.einsum("nij,njk->nik", tangents.damping, how.velocity_by_q)
             change += np.einsum("nij,njk->nik", tangents.inertia, how.acceleration_by_q)

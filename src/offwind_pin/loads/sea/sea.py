@@ -13,6 +13,8 @@ from offwind_pin.base.definition import (
     ComplexArray,
     Definition,
     Direction,
+    Flag,
+    Integer,
     Number,
     Positive,
     key,
@@ -148,7 +150,7 @@ class LinearSea(Sea):
     """
 
     order: Order = 1
-    doppler: bool = False
+    doppler: Flag = False
 
     @model_validator(mode="after")
     def _doppler_has_a_current(self) -> Self:
@@ -280,7 +282,7 @@ class StreamWaves(Sea, kw_only=False):
     period: WavePeriod = key("period_s")
     direction_deg: Direction = 0.0
     crest_time: Number = key("crest_time_s", default=0.0)
-    order: Annotated[int, Field(ge=2, le=128)] | None = None
+    order: Annotated[Integer, Field(ge=2, le=128)] | None = None
 
     def waves(self, depth: float, gravity: float) -> StreamFunctionWaves:
         angle = float(np.radians(self.direction_deg))

@@ -17,6 +17,7 @@ from offwind_pin.base.definition import (
     Array,
     ComplexArray,
     Definition,
+    Flag,
     NonNegative,
     Positive,
     Seed,
@@ -210,7 +211,7 @@ class RotorWind(Definition, kw_only=False):
     wind_speed: Annotated[Positive, Field(ge=1, le=60)] = key("wind_speed_m_per_s")
     turbulence_intensity: Annotated[NonNegative, Field(le=1)] | None = None
     shear_exponent: Annotated[NonNegative, Field(le=1)] = 0.14
-    tower_shadow: bool = True
+    tower_shadow: Flag = True
     seed: Seed | None = None
     turbulence_class: Literal["A", "B", "C"] | None = Field(default=None, kw_only=True)
 

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from offwind_pin.base.definition import Positive, key
+from offwind_pin.base.definition import Flag, Positive, key
 from offwind_pin.loads.wind.rotor_effective_wind import RotorWind
 from offwind_pin.loads.wind.rotor_thrust import CONTROL_TIME, Control
 
@@ -27,4 +27,4 @@ class RotorLoad(RotorWind):
     kind: Literal["rotor"] = "rotor"
     control: Control = "lagged"
     control_time: Annotated[Positive, Field(le=1000)] = key("control_time_s", default=CONTROL_TIME)
-    inflow_lag: bool = False
+    inflow_lag: Flag = False

@@ -13,6 +13,7 @@ from offwind_pin.base.definition import (
     Array,
     ComplexArray,
     Definition,
+    Flag,
     Number,
     Numbers,
     Positive,
@@ -55,7 +56,7 @@ class SurfaceRecord(Definition, kw_only=False):
     elevation: Annotated[Numbers, Field(min_length=FEWEST_SAMPLES)] = key("elevation_m")
     origin: str
     start: Number = key("start_s", default=0.0)
-    resampled: bool = False
+    resampled: Flag = False
 
     @property
     def duration(self) -> float:
