@@ -210,7 +210,7 @@ class TestFromResultsAlone:
         self, runs: dict[str, Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     ) -> None:
         shutil.copy(runs["modes"] / "results.nc", tmp_path)
-        (tmp_path / "report.html").write_text("old")
+        old = report_again(tmp_path).read_text()
 
         def fail(data: xr.Dataset) -> None:
             raise RuntimeError("no picture")
@@ -219,7 +219,7 @@ class TestFromResultsAlone:
         with pytest.raises(RuntimeError, match="no picture"):
             report_again(tmp_path)
         assert {path.name for path in tmp_path.iterdir()} == {"results.nc", "report.html"}
-        assert (tmp_path / "report.html").read_text() == "old"
+        assert (tmp_path / "report.html").read_text() == old
 
 
 class TestRunning:
@@ -228,7 +228,11 @@ class TestRunning:
         case, out = write_case(tmp_path, "modes"), tmp_path / "out"
         code, _, _ = offwind("run", str(case), "--out", str(out), "--no-report")
         assert code == 0
-        assert {path.name for path in out.iterdir()} == {"results.nc", "summary.json"}
+        assert {path.name for path in out.iterdir()} == {
+            "manifest.json",
+            "results.nc",
+            "summary.json",
+        }
         assert offwind("report", str(out))[0] == 0
         assert (out / "report.html").is_file()
 
@@ -277,7 +281,7 @@ class TestRunning:
             patch.setattr(case_run, "_add_groups", killed)
             with pytest.raises(SystemExit):
                 run_case(path, out)
-        assert {entry.name for entry in out.iterdir()} == {"results.nc"}
+        assert {entry.name for entry in out.iterdir()} == {"blocks", "manifest.json", "results.nc"}
         code, _, err = offwind("report", str(out))
         assert code == 2
         assert "Run the case again" in err

@@ -138,7 +138,9 @@ def test_run_a_case_of_ones_own(offwind: Any, short_case: Path, tmp_path: Path) 
     out = tmp_path / "out"
     code, text, err = offwind("run", str(short_case), "--out", str(out), "--json")
     assert code == 0, err
-    assert {path.name for path in out.iterdir()} == {"summary.json", "results.nc", "report.html"}
+    assert {path.name for path in out.iterdir()} == {
+        "manifest.json", "summary.json", "results.nc", "report.html",
+    }  # fmt: skip
     assert json.loads(text) == json.loads((out / "summary.json").read_text())
     assert json.loads(text)["seed"] == 7
 

@@ -172,7 +172,8 @@ def test_a_failed_run_leaves_nothing_of_an_older_one(offwind: Any, tmp_path: Pat
         "analysis": {"kind": "modes"},
     }
     (tmp_path / "c.yaml").write_text(yaml.safe_dump(case))
-    assert offwind("run", str(tmp_path / "c.yaml"), "--out", str(tmp_path))[0] == 3
+    words = ["run", str(tmp_path / "c.yaml"), "--out", str(tmp_path), "--overwrite"]
+    assert offwind(*words)[0] == 3
     assert '"status": "failed"' in (tmp_path / "summary.json").read_text()
     assert not (tmp_path / "report.html").exists()
     assert not (tmp_path / "results.nc").exists()

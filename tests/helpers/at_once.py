@@ -22,6 +22,6 @@ def move(system: ow.System, engine: Engine, size: float) -> xr.Dataset:
         0.05,
         [ow.LoadHistory(time, push, "push")],
         ramp=0.5,
-        heights=[0.0, 80.0],
+        save_at=ow.SaveAt(heights=[0.0, 80.0]),
         engine=engine,
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import runpy
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ import xarray as xr
 from helpers.doc_pages import ROOT
 
 import offwind_pin as ow
+from offwind_pin.base.whole_files import write_netcdf
 from offwind_pin.loads.sea.forces.morison import WAVE_ELEVATION
 from offwind_pin.loads.tower_top.load_history import TOWER_TOP_LOAD, TowerTopLoad, constant_load
 from offwind_pin.results.channels import CHANNELS
@@ -116,6 +118,26 @@ def test_settings_that_cannot_be_used(
 
     with pytest.raises(ow.InputError, match=field):
         solve(**arguments)
+
+
+FAULTS: dict[str, Callable[[xr.Dataset], xr.Dataset]] = {
+    "units": lambda data: data.assign(mudline_force=data.mudline_force.assign_attrs(units="kN")),
+    "dimensions": lambda data: data.rename(direction="axis"),
+    "type": lambda data: data.assign(solver_step=data.solver_step.astype(int)),
+    "rising": lambda data: data.isel(time=slice(None, None, -1)),
+    "no times": lambda data: data.drop_vars("time"),
+}
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_other_channels_are_not_read(system: ow.System, tmp_path: Path, fault: str) -> None:
+    data = ow.simulate(system, 0.2, 0.1)
+    data["solver_step"] = data["solver_step"].fillna(0.0)
+    write_netcdf(tmp_path / "results.nc", data)
+    ow.open_results(tmp_path).close()
+    write_netcdf(tmp_path / "results.nc", FAULTS[fault](data))
+    with pytest.raises(ow.InputError, match=fault):
+        ow.open_results(tmp_path)
 
 
 def test_page_prints_the_table() -> None:

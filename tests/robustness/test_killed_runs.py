@@ -17,7 +17,7 @@ import pytest
 import xarray as xr
 from helpers import killed_run
 
-from offwind_pin.results.blocks import BLOCK_FOLDER, time_reached
+from offwind_pin.results.manifest import BLOCKS, read_manifest
 
 SMALLEST_FILE = 1000
 """Bytes; every block is larger, so that a limit below this is passed at the next write."""
@@ -42,6 +42,11 @@ def processes() -> Iterator[ForkServerContext]:
 def contents(directory: Path) -> xr.Dataset:
     with xr.open_dataset(directory / "results.nc") as data:
         return data.load()
+
+
+def time_reached(directory: Path) -> float:
+    manifest = read_manifest(directory)
+    return manifest.blocks[-1].end_s if manifest and manifest.blocks else 0.0
 
 
 def start(processes: ForkServerContext, target: Callable[..., None], *arguments: object) -> int:
@@ -91,11 +96,11 @@ def test_killed_again_and_again(
     last = count - draw.randint(0, REMOVALS)
     assert start(processes, killed_run.run_and_die, stopped, steps, last, 0) == -signal.SIGKILL
     assert (stopped / "results.nc").exists()
-    assert (stopped / BLOCK_FOLDER).exists()
+    assert (stopped / BLOCKS).exists()
 
     assert start(processes, killed_run.run, stopped, steps) == 0
     found = contents(stopped)
     assert found.identical(expected)
     for name in (n for n in expected.variables if expected[n].dtype.kind not in "OU"):
         assert found[name].to_numpy().tobytes() == expected[name].to_numpy().tobytes()
-    assert [path.name for path in stopped.iterdir()] == ["results.nc"]
+    assert {path.name for path in stopped.iterdir()} == {"results.nc", "manifest.json"}

@@ -12,7 +12,7 @@ import offwind_pin as ow
 from offwind_pin.analysis import simulate as module
 from offwind_pin.base.fingerprint import content_hash
 from offwind_pin.loads.point_load import PointForces, PointMotion
-from offwind_pin.results.dataset import versions
+from offwind_pin.results.manifest import environment
 
 Array = NDArray[np.float64]
 
@@ -68,7 +68,7 @@ def test_a_changed_load_is_refused(system: ow.System, tmp_path: Path) -> None:
     load = Pull(system.chain.top)
     stopped(system, tmp_path, load)
     for other in (replace(load, size=float(np.nextafter(1e5, 2e5))), Described(system.chain.top)):
-        with pytest.raises(ow.InputError, match=r"another run \(other inputs_sha256\)"):
+        with pytest.raises(ow.InputError, match=r"other load 1 own\)"):
             run(system, tmp_path, other)
 
 
@@ -78,11 +78,12 @@ def test_another_version_is_refused(
     """Results of two versions of the package would not be one run's."""
     load = Pull(system.chain.top)
     stopped(system, tmp_path, load)
-    newer = versions() | {"offwind_pin_version": "99.0"}
-    with monkeypatch.context() as patch:
-        patch.setattr(module, "versions", lambda: newer)
-        with pytest.raises(ow.InputError, match=r"another run \(other offwind_pin_version\)"):
-            run(system, tmp_path, load)
+    for program in ("offwind_pin", "offwind_pin_sources", "numpy"):
+        newer = environment() | {program: "99.0"}
+        with monkeypatch.context() as patch:
+            patch.setattr(module, "environment", lambda newer=newer: newer)
+            with pytest.raises(ow.InputError, match=rf"\(other {program}\)"):
+                run(system, tmp_path, load)
     run(system, tmp_path, load)
 
 
@@ -90,7 +91,7 @@ def test_a_load_that_cannot_be_compared_is_not_resumed(system: ow.System, tmp_pa
     """It runs, and says on going on what is missing; a fingerprint of its own mends it."""
     load = Pull(system.chain.top, shape=np.sin)
     stopped(system, tmp_path / "unknown", load)
-    with pytest.raises(ow.InputError, match=r"load 'own'.*fingerprint"):
+    with pytest.raises(ow.InputError, match=r"load 1 own.*fingerprint"):
         run(system, tmp_path / "unknown", load)
     run(system, tmp_path / "new", load)
     described = Described(system.chain.top, shape=np.sin)

@@ -1,6 +1,8 @@
 """Results written as they come: the same as in memory, and the same after a stop."""
 
+import hashlib
 import json
+import uuid
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -13,7 +15,7 @@ from helpers.own_loads import FromHistory, HardeningRestraint
 import offwind_pin as ow
 from offwind_pin.analysis.integrators import Integrator
 from offwind_pin.loads.tower_top.load_history import TowerTopLoad
-from offwind_pin.results.blocks import BLOCK_FOLDER, time_reached
+from offwind_pin.results.manifest import BLOCKS, MANIFEST, read_manifest
 
 DURATION, OUTPUT = 90.0, 0.5
 """Four blocks of 20 s and a half one."""
@@ -53,6 +55,15 @@ def run(
     return ow.simulate(system, **(settings | changed))  # type: ignore[arg-type]
 
 
+def names(directory: Path) -> set[str]:
+    return {path.name for path in directory.iterdir()}
+
+
+def time_reached(directory: Path) -> float:
+    manifest = read_manifest(directory)
+    return manifest.blocks[-1].end_s if manifest and manifest.blocks else 0.0
+
+
 def stop_at(time: float) -> Callable[[float], None]:
     """What ``progress`` may do when the user interrupts."""
 
@@ -89,7 +100,7 @@ def test_file_holds_what_memory_would(system: ow.System, tmp_path: Path, method:
             expected = expected.astype(np.float32)
         assert np.array_equal(file[name].to_numpy(), expected, equal_nan=expected.dtype.kind == "f")
     assert len(file["time"]) == round(DURATION / OUTPUT) + 1
-    assert [path.name for path in tmp_path.iterdir()] == ["results.nc"]
+    assert names(tmp_path) == {"results.nc", "manifest.json"}
     file.close()
 
 
@@ -150,19 +161,30 @@ def test_interrupted_many_times(system: ow.System, tmp_path: Path) -> None:
 
 
 def test_a_lost_state_is_seen(system: ow.System, tmp_path: Path) -> None:
-    """Negative control: were a block's state off in the last digit, the results would not be the
+    """The block is refused. Negative control of the comparisons: were a block's state off in the last digit, the results would not be the
     same."""
     run(system, "fixed", tmp_path / "whole").close()
     with pytest.raises(ow.InterruptedSimulation) as stopped:
         run(system, "fixed", tmp_path / "stopped", progress=stop_at(40.0))
     stopped.value.results.close()
-    last = sorted((tmp_path / "stopped" / BLOCK_FOLDER).glob("block_*.npz"))[-1]
+    last = sorted((tmp_path / "stopped" / BLOCKS).glob("block_*.npz"))[-1]
     with np.load(last) as file:
         block = dict(file)
     block["state_vectors"] = np.nextafter(block["state_vectors"], np.inf)
     np.savez(last, **block)
+    with pytest.raises(ow.InputError, match=last.name):
+        run(system, "fixed", tmp_path / "stopped")
+    accept(tmp_path / "stopped", last)
     run(system, "fixed", tmp_path / "stopped").close()
     assert not same(contents(tmp_path / "stopped"), contents(tmp_path / "whole"))
+
+
+def accept(directory: Path, block: Path) -> None:
+    """Write the checksum of a changed block into the manifest."""
+    path = directory / MANIFEST
+    manifest = json.loads(path.read_text())
+    manifest["blocks"][-1]["sha256"] = hashlib.sha256(block.read_bytes()).hexdigest()
+    path.write_text(json.dumps(manifest))
 
 
 def interrupted(system: ow.System, directory: Path, **changed: object) -> None:
@@ -178,11 +200,11 @@ CHANGES: dict[str, tuple[dict[str, object], str]] = {
     "duration": ({"duration": 80.0}, "duration_s"),
     "ramp": ({"ramp": 5.0}, "ramp_s"),
     "output": ({"save_at": SAVED.replace(output_dt=0.25)}, "output_dt_s"),
-    "load": ({"loads": [history(1 + 1e-12)]}, "inputs_sha256"),
+    "load": ({"loads": [history(1 + 1e-12)]}, "load 4 tower_top"),
     "no load": ({"loads": []}, "tower_top_load_origin"),
-    "heights": ({"save_at": SAVED.replace(heights=[0.0, 50.5])}, "inputs_sha256"),
-    "channels": ({"save_at": SAVED.replace(channels=["mudline_moment"])}, "inputs_sha256"),
-    "segments": ({"save_at": SAVED.replace(segments=[(-75.0, 0.0)])}, "inputs_sha256"),
+    "heights": ({"save_at": SAVED.replace(heights=[0.0, 50.5])}, "recorded heights"),
+    "channels": ({"save_at": SAVED.replace(channels=["mudline_moment"])}, "channels"),
+    "segments": ({"save_at": SAVED.replace(segments=[(-75.0, 0.0)])}, "recorded heights"),
     "provenance": ({"provenance": {"case": "another"}}, "case"),
 }
 
@@ -191,13 +213,14 @@ CHANGES: dict[str, tuple[dict[str, object], str]] = {
 def test_other_settings_are_refused(system: ow.System, tmp_path: Path, changed: str) -> None:
     """A folder of another run's blocks is not taken for one's own; what differs is named."""
     interrupted(system, tmp_path)
-    blocks = sorted((tmp_path / BLOCK_FOLDER).iterdir())
+    blocks = sorted((tmp_path / BLOCKS).iterdir())
     settings, name = CHANGES[changed]
-    with pytest.raises(ow.InputError, match=rf"another run \(other [^)]*\b{name}\b") as refused:
+    with pytest.raises(
+        ow.InputError, match=rf"another simulation \(other [^)]*\b{name}\b"
+    ) as refused:
         run(system, "fixed", tmp_path, **settings)
-    assert BLOCK_FOLDER in str(refused.value)
-    assert "Delete the folder" in str(refused.value)
-    assert sorted((tmp_path / BLOCK_FOLDER).iterdir()) == blocks
+    assert "overwrite" in str(refused.value)
+    assert sorted((tmp_path / BLOCKS).iterdir()) == blocks
 
 
 def test_other_systems_are_refused(system: ow.System, tmp_path: Path) -> None:
@@ -212,10 +235,10 @@ def test_other_systems_are_refused(system: ow.System, tmp_path: Path) -> None:
             system.turbine, "distributed_springs", sea, elements=4, element="timoshenko"
         ),
         "foundation": ow.build(system.turbine, "coupled_springs", sea, elements=4),
-        "inputs_sha256": system.with_damping(1e-9 * system.joint_stiffness, {}),
+        "structure": system.with_damping(1e-9 * system.joint_stiffness, {}),
     }
     for name, other in others.items():
-        with pytest.raises(ow.InputError, match=rf"another run \(other [^)]*\b{name}\b"):
+        with pytest.raises(ow.InputError, match=rf"another simulation \(other [^)]*\b{name}\b"):
             run(other, "fixed", tmp_path)
 
 
@@ -229,47 +252,28 @@ def test_a_short_gust_is_seen(system: ow.System, tmp_path: Path) -> None:
 
     with pytest.raises(ow.InterruptedSimulation):
         run(system, "fixed", tmp_path, loads=drag(61.0), progress=stop_at(40.0))
-    with pytest.raises(ow.InputError, match="another run"):
+    with pytest.raises(ow.InputError, match="another simulation"):
         run(system, "fixed", tmp_path, loads=drag(62.5))
 
 
 @pytest.mark.parametrize(
-    "text", ["", "{", '{"duration_s": 90', "[]", "null", "\x00\x01", "{}"], ids=repr
+    "text",
+    [b"", b"{", b'{"duration_s": 90', b"[]", b"null", b"\x00\x01", b"{}", b"\xff\xfe"],
+    ids=repr,
 )
-def test_a_damaged_label_is_refused(system: ow.System, tmp_path: Path, text: str) -> None:
-    """A run.json that cannot be read, or is not one, is no licence to go on from what lies there."""
+def test_a_damaged_manifest_is_refused(system: ow.System, tmp_path: Path, text: bytes) -> None:
     interrupted(system, tmp_path)
-    (tmp_path / BLOCK_FOLDER / "run.json").write_text(text)
-    with pytest.raises(ow.InputError, match="another run"):
+    (tmp_path / MANIFEST).write_bytes(text)
+    with pytest.raises(ow.InputError, match=r"manifest\.json"):
         run(system, "fixed", tmp_path)
 
 
-def test_a_label_that_is_no_text_is_refused(system: ow.System, tmp_path: Path) -> None:
+def test_the_undamaged_manifest_is_taken(system: ow.System, tmp_path: Path) -> None:
+    """Negative control: with other blanks and order it is the same run."""
     interrupted(system, tmp_path)
-    label = tmp_path / BLOCK_FOLDER / "run.json"
-    label.write_bytes(b"\xff\xfe\x00" + label.read_bytes())
-    with pytest.raises(ow.InputError, match=r"run\.json"):
-        run(system, "fixed", tmp_path)
-
-
-def test_the_undamaged_label_is_taken(system: ow.System, tmp_path: Path) -> None:
-    """Negative control: written anew with other blanks and order it is the same run."""
-    interrupted(system, tmp_path)
-    label = tmp_path / BLOCK_FOLDER / "run.json"
-    data = json.loads(label.read_text())
-    label.write_text(json.dumps(dict(reversed(data.items()))))
-    run(system, "fixed", tmp_path).close()
-    assert contents(tmp_path).attrs["status"] == "complete"
-
-
-@pytest.mark.parametrize("left", [[], [".block_000000.0123.npz"], [".run.0123.json"]], ids=str)
-def test_killed_before_its_label_was_written(
-    system: ow.System, tmp_path: Path, left: list[str]
-) -> None:
-    """A folder with no label and no block holds nothing that could be mistaken: the run begins."""
-    (tmp_path / BLOCK_FOLDER).mkdir()
-    for name in left:
-        (tmp_path / BLOCK_FOLDER / name).write_bytes(b"half")
+    manifest = tmp_path / MANIFEST
+    data = json.loads(manifest.read_text())
+    manifest.write_text(json.dumps(dict(reversed(data.items()))))
     run(system, "fixed", tmp_path).close()
     assert contents(tmp_path).attrs["status"] == "complete"
 
@@ -277,9 +281,11 @@ def test_killed_before_its_label_was_written(
 def test_nothing_is_left_beside_the_results(system: ow.System, tmp_path: Path) -> None:
     """Half-written files of a killed run are gone once its results stand."""
     interrupted(system, tmp_path)
-    (tmp_path / BLOCK_FOLDER / ".block_000002.0123.npz").write_bytes(b"half a block")
+    left = uuid.uuid4().hex
+    (tmp_path / BLOCKS / f".block_000002.{left}.npz").write_bytes(b"half a block")
+    (tmp_path / f".results.{left}.nc").write_bytes(b"half")
     run(system, "fixed", tmp_path).close()
-    assert [path.name for path in tmp_path.iterdir()] == ["results.nc"]
+    assert names(tmp_path) == {"results.nc", "manifest.json"}
 
 
 def test_own_loads_and_restraints_resume(undamped: ow.Turbine, tmp_path: Path) -> None:
@@ -324,18 +330,9 @@ def test_failed_run_with_a_directory(system: ow.System, tmp_path: Path) -> None:
 
 
 def test_a_damaged_block_is_named(system: ow.System, tmp_path: Path) -> None:
-    """A block cut short by something else than a kill: its file and the remedy are told."""
+    """Cut short by something else than a kill."""
     interrupted(system, tmp_path)
-    block = sorted((tmp_path / BLOCK_FOLDER).glob("block_*.npz"))[-1]
+    block = sorted((tmp_path / BLOCKS).glob("block_*.npz"))[-1]
     block.write_bytes(block.read_bytes()[:100])
     with pytest.raises(ow.InputError, match=block.name):
         run(system, "fixed", tmp_path)
-    with pytest.raises(ow.InputError, match=block.name):
-        time_reached(tmp_path)
-
-
-def test_a_half_written_file_of_results_goes(system: ow.System, tmp_path: Path) -> None:
-    """What a kill left while results.nc was written is gone once it stands."""
-    tmp_path.joinpath(".results.0123.nc").write_bytes(b"half")
-    run(system, "fixed", tmp_path).close()
-    assert [path.name for path in tmp_path.iterdir()] == ["results.nc"]

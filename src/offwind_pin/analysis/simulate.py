@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from typing import Any, Literal, get_args
 
@@ -35,9 +36,11 @@ from offwind_pin.loads.earthquake.ground_motion import GroundMotion, ground_moti
 from offwind_pin.loads.point_load import PointLoad, joined_attributes
 from offwind_pin.loads.sea.forces.morison import WAVE_ELEVATION
 from offwind_pin.loads.tower_top.load_history import TOWER_TOP_LOAD, LoadHistory, constant_load
-from offwind_pin.results.blocks import BLOCK_FOLDER, Block, BlockStore, FolderStore, MemoryStore
+from offwind_pin.results.blocks import Block, BlockStore, FolderStore, MemoryStore
 from offwind_pin.results.channels import CHANNELS
 from offwind_pin.results.dataset import HistoryWriter, versions
+from offwind_pin.results.manifest import RESULTS, Simulation, environment, plain
+from offwind_pin.results.run_folder import RunFolder
 from offwind_pin.results.save_at import SaveAt
 from offwind_pin.solvers.steps import MOST_OUTPUTS, FixedStep
 
@@ -67,7 +70,8 @@ def simulate(
     integrator: Integrator | None = None,
     engine: Engine | None = None,
     save_at: SaveAt | None = None,
-    directory: Path | str | None = None,
+    directory: Path | str | RunFolder | None = None,
+    overwrite: bool = False,
     provenance: dict[str, Any] | None = None,
     progress: Progress | None = None,
 ) -> xr.Dataset:
@@ -103,8 +107,11 @@ def simulate(
         What is recorded and when, by default everything at every step.
     directory : Path or str, optional
         Where the results are kept as they come, ``results.nc`` in the end, so that memory does not
-        grow with the duration; the same call after a stop goes on where it left off, to bitwise the
-        same results.
+        grow with the duration. The same call after a stop resumes the simulation, with bitwise the
+        same results; after the end it returns them. A directory with other results, or that another
+        process is writing to, is refused.
+    overwrite : bool
+        Whether earlier results in the directory are replaced instead.
     provenance : dict of str to object, optional
         Further attributes for the dataset.
     progress : callable, optional
@@ -192,49 +199,67 @@ def simulate(
         save_at.channels,
         inertial_damping=bool(system.structural_loads),
     )
-    store: BlockStore = MemoryStore()
-    if directory is not None:
-        inputs = (chain, sections, [channel.name for channel in writer.channels])
-        store = _folder_store(Path(directory) / BLOCK_FOLDER, run, *inputs)
-    cautioned: set[str] = set()
-    if len(store) == 0:
-        state, records = first_record(chain, sections, state)
-        store.append(_block(chain, writer, state, records))
-    try:
-        state = _state(store.last())
-        per_block = _outputs_per_block(method, interval)
-        done = round(state.time / interval)
-        while done < outputs:
-            until = min(done + per_block - done % per_block, outputs)
-            times = interval * np.arange(done + 1, until + 1, dtype=float)
-            state, records = method.advance(chain, sections, state, times)
+    channels = [channel.name for channel in writer.channels]
+    with _run_folder(directory, overwrite=overwrite) as folder:
+        store: BlockStore = MemoryStore()
+        if folder is not None:
+            store = _folder_store(folder, run, chain, sections, channels)
+            if folder.state == "complete":
+                folder.finish()  # a kill may have left blocks
+                return xr.open_dataset(folder.directory / RESULTS, engine="netcdf4")
+        if len(store) == 0:
+            state, records = first_record(chain, sections, state)
             store.append(_block(chain, writer, state, records))
-            _caution_of_travel(system, records, cautioned)
-            done = until
-            if progress is not None:
-                progress(state.time)
-    except StepFailed as failure:
-        if failure.advanced is not None:
-            store.append(_block(chain, writer, *failure.advanced))
-        joint, size = chain.worst_joint(failure.residual)
-        raise SolverError(
-            f"the time step did not converge: {failure.reason} (a smaller dt may help)",
-            time=failure.time,
-            step=failure.number,
-            joint=joint,
-            residual=size,
-            results=writer.write(store, "failed", directory),
-        ) from None
-    except KeyboardInterrupt:
-        raise InterruptedSimulation(
-            _state(store.last()).time, writer.write(store, "interrupted", directory)
-        ) from None
-    if system.structural_loads:
-        attributes |= _inertial_share(store, sections[0].height)
-    data = writer.write(store, "complete", directory)
-    if isinstance(store, FolderStore):
-        store.remove()
+        try:
+            _advance(chain, sections, method, interval, outputs, writer, store, progress)
+        except StepFailed as failure:
+            if failure.advanced is not None:
+                store.append(_block(chain, writer, *failure.advanced))
+            joint, size = chain.worst_joint(failure.residual)
+            raise SolverError(
+                f"the time step did not converge: {failure.reason} (a smaller dt may help)",
+                time=failure.time,
+                step=failure.number,
+                joint=joint,
+                residual=size,
+                results=writer.write(store, "failed", folder),
+            ) from None
+        except KeyboardInterrupt:
+            raise InterruptedSimulation(
+                _state(store.last()).time, writer.write(store, "interrupted", folder)
+            ) from None
+        if system.structural_loads:
+            attributes |= _inertial_share(store, sections[0].height)
+        data = writer.write(store, "complete", folder)
+        if folder is not None and folder is not directory:
+            folder.finish()
     return data
+
+
+def _advance(
+    chain: CompiledChain,
+    sections: Sections,
+    method: Integrator,
+    interval: float,
+    outputs: int,
+    writer: HistoryWriter,
+    store: BlockStore,
+    progress: Progress | None,
+) -> None:
+    """Add blocks until there are so many outputs at an interval in s."""
+    cautioned: set[str] = set()
+    state = _state(store.last())
+    per_block = _outputs_per_block(method, interval)
+    done = round(state.time / interval)
+    while done < outputs:
+        until = min(done + per_block - done % per_block, outputs)
+        times = interval * np.arange(done + 1, until + 1, dtype=float)
+        state, records = method.advance(chain, sections, state, times)
+        store.append(_block(chain, writer, state, records))
+        _caution_of_travel(chain.system, records, cautioned)
+        done = until
+        if progress is not None:
+            progress(state.time)
 
 
 def _caution_of_travel(system: System, records: Records, cautioned: set[str]) -> None:
@@ -374,9 +399,18 @@ def _point_load(
     return load
 
 
+def _run_folder(
+    directory: Path | str | RunFolder | None, *, overwrite: bool
+) -> AbstractContextManager[RunFolder | None]:
+    """A directory of results, locked for the time of the block; None for results in memory."""
+    if directory is None or isinstance(directory, RunFolder):
+        return nullcontext(directory)
+    return RunFolder(Path(directory), {"kind": "simulation"}, overwrite=overwrite)
+
+
 def _folder_store(
-    folder: Path,
-    run: dict[str, Any],
+    folder: RunFolder,
+    settings: dict[str, Any],
     chain: CompiledChain,
     sections: Sections,
     channels: Sequence[str],
@@ -386,53 +420,57 @@ def _folder_store(
     Raises
     ------
     InputError
-        Blocks of another run, or of a run that cannot be identified.
+        Results of another simulation, or of one that cannot be compared.
     """
-    unknown = None
-    try:
-        inputs = _fingerprint(chain, sections, channels)
-    except InputError as error:
-        inputs, unknown = "unknown", error
-    store = FolderStore(folder, run | {"inputs_sha256": inputs})
-    if unknown is not None and len(store):
-        raise unknown
+    inputs, unknown = _fingerprints(chain, sections, channels)
+    simulation = Simulation(settings=plain(settings), inputs=inputs, environment=environment())
+    store = FolderStore(folder, simulation)
+    if unknown and len(store):
+        raise InputError(
+            str(folder.directory),
+            "a time history under loads that cannot be compared with those of this run: "
+            f"{'; '.join(unknown)}",
+            "loads with a fingerprint",
+            "Give their classes a method fingerprint() -> str, whose text differs where the forces "
+            "differ, or start again with --overwrite (overwrite=True in Python).",
+        )
     return store
 
 
-def _fingerprint(chain: CompiledChain, sections: Sections, channels: Sequence[str]) -> str:
-    """Hash of what determines the results besides the settings: loads, heights and channels.
+def _fingerprints(
+    chain: CompiledChain, sections: Sections, channels: Sequence[str]
+) -> tuple[dict[str, str | None], list[str]]:
+    """Hashes of everything that determines the results besides the settings, by name.
 
-    Raises
-    ------
-    InputError
-        A load or root restraint whose content cannot be hashed.
+    Returns
+    -------
+    dict of str to str or None
+        Hashes; None where there is none.
+    list of str
+        The reason for each of these.
     """
-    root = chain.system.foundation.root
-    parts = {f"load {load.name!r}": load.fingerprint for load in chain.acting}
+    root, foundation = chain.system.foundation.root, chain.system.foundation
+    found: dict[str, str | None] = {
+        "foundation": content_hash(foundation.describe()),
+        "structure": content_hash(chain.model.stiffness, chain.model.damping),
+        "recorded heights": content_hash(sections[0].height, sections[1].cut),
+        "channels": content_hash(list(channels)),
+        "ground motion": content_hash(chain.ground_motion),
+    }
+    described: dict[str, Callable[[], str]] = {
+        f"load {number} {load.name}": load.fingerprint
+        for number, load in enumerate(chain.acting, 1)
+    }
     if root is not None:
-        parts["root restraint"] = root.fingerprint
-    found = []
-    for name, fingerprint in parts.items():
+        described["root restraint"] = root.fingerprint
+    unknown = []
+    for name, fingerprint in described.items():
         try:
-            found.append(fingerprint())
+            found[name] = fingerprint()
         except NoFingerprintError as error:
-            raise InputError(
-                f"{name}, method fingerprint",
-                f"{error} among the attributes",
-                "numbers, texts, arrays and objects made of them",
-                "Give the class a method fingerprint() -> str that hashes what determines its "
-                "forces, or delete the directory to start again.",
-            ) from None
-    return content_hash(
-        found,
-        chain.system.foundation.describe(),
-        sections[0].height,
-        sections[1].cut,
-        list(channels),
-        chain.model.stiffness,
-        chain.model.damping,
-        chain.ground_motion,
-    )
+            found[name] = None
+            unknown.append(f"{name} has {error} among its attributes")
+    return found, unknown
 
 
 def _load_channels(loads: Sequence[PointLoad]) -> list[Channel]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import hashlib
 import inspect
-from functools import cached_property
+from functools import cache, cached_property
 from pathlib import Path
 from typing import Any
 
@@ -34,6 +34,16 @@ def content_hash(*values: object) -> str:
     digest = hashlib.sha256()
     for value in values:
         _feed(digest, value, [])
+    return digest.hexdigest()
+
+
+@cache
+def package_digest() -> str:
+    """SHA-256 of the sources of this package."""
+    package = Path(__file__).parents[1]
+    digest = hashlib.sha256()
+    for path in sorted(package.rglob("*.py")):
+        digest.update(path.relative_to(package).as_posix().encode() + b"\0" + path.read_bytes())
     return digest.hexdigest()
 
 

@@ -21,8 +21,10 @@ from pathlib import Path
 from typing import Any, TypeVar, cast
 
 from numba import config, njit, types
-from numba.core import cgutils
+from numba.core import cgutils, dispatcher
 from numba.extending import intrinsic
+
+from offwind_pin.base.kernel_cache import KernelCache
 
 _log = logging.getLogger(__name__)
 
@@ -135,13 +137,14 @@ def announce() -> None:
 
 @contextmanager
 def _own_cache() -> Iterator[None]:
-    """Numba's cache directory, ours for the kernels made in the block."""
-    before = config.CACHE_DIR  # type: ignore[attr-defined]
-    config.CACHE_DIR = str(_cache_directory())  # type: ignore[attr-defined]
+    """Numba's cache and its directory, ours for the kernels made in the block."""
+    settings, dispatchers = cast("Any", config), cast("Any", dispatcher)
+    before = settings.CACHE_DIR, dispatchers.FunctionCache
+    settings.CACHE_DIR, dispatchers.FunctionCache = str(_cache_directory()), KernelCache
     try:
         yield
     finally:
-        config.CACHE_DIR = before  # type: ignore[attr-defined]
+        settings.CACHE_DIR, dispatchers.FunctionCache = before
 
 
 @cache

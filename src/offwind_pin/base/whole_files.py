@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import shutil
 import uuid
@@ -33,6 +34,10 @@ def whole_file(path: Path) -> Iterator[Path]:
     try:
         yield temporary
         temporary.replace(path)
+    except OSError as error:
+        if error.filename in (None, str(temporary)):  # a failed write names no file
+            error.filename = str(path)
+        raise
     finally:
         temporary.unlink(missing_ok=True)
 
@@ -62,7 +67,7 @@ def append_netcdf(
     """
     import netCDF4
 
-    with whole_file(path) as temporary:
+    with whole_file(path) as temporary, _netcdf_errors():
         first = next(parts)
         unlimited = ["time"] if "time" in first.sizes else []
         encoding = _encoding(first, dtypes or {})
@@ -79,12 +84,23 @@ def append_netcdf(
 
 def add_groups(path: Path, groups: Mapping[str, xr.Dataset]) -> None:
     """Add datasets as groups to an existing NetCDF file, which is replaced as a whole."""
-    with whole_file(path) as temporary:
+    with whole_file(path) as temporary, _netcdf_errors():
         shutil.copyfile(path, temporary)
         for name, data in groups.items():
             data.to_netcdf(
                 temporary, mode="a", group=name, engine="netcdf4", encoding=_encoding(data, {})
             )
+
+
+@contextmanager
+def _netcdf_errors() -> Iterator[None]:
+    """Errors of the NetCDF library, such as those on a full disk, as OSError."""
+    try:
+        yield
+    except RuntimeError as error:
+        raise OSError(
+            errno.EIO, f"the file cannot be written ({error}); is the disk full?"
+        ) from error
 
 
 def _encoding(data: xr.Dataset, dtypes: Mapping[str, str]) -> dict[Any, dict[str, Any]]:

@@ -213,6 +213,24 @@ class Case(Definition):
         duration = analysis.duration if isinstance(analysis, TransientAnalysis) else 0.0
         return self.sea.completed(self.seed, duration)
 
+    def with_seed(self, seed: int) -> Case:
+        """The same case, in which everything random is drawn by one seed.
+
+        Seeds that waves or wind have of their own are dropped.
+
+        Raises
+        ------
+        InputError
+            A seed that cannot be used.
+        """
+        parts = {name: getattr(self, name) for name in type(self).model_fields}
+        reseeded = {
+            name: part.replace(seed=None)
+            for name, part in parts.items()
+            if isinstance(part, Definition) and getattr(part, "seed", None) is not None
+        }
+        return self.replace(seed=seed, **reseeded)
+
     def build(self, foundation: str | None = None) -> System:
         """The case's system, on its own foundation or on another.
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import logging
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -42,12 +43,15 @@ from offwind_pin.cases.tower_top import tower_top, wind_dataset
 from offwind_pin.cases.tree_summary import summary, summary_head
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.sea.sea import Sea
-from offwind_pin.results.blocks import time_reached
 from offwind_pin.results.dataset import versions
-from offwind_pin.results.reading import FILE, analysed, open_case
+from offwind_pin.results.manifest import REPORT, RESULTS, SUMMARY, State
+from offwind_pin.results.reading import analysed, open_case
+from offwind_pin.results.run_folder import RunFolder
 from offwind_pin.results.save_at import SaveAt
 from offwind_pin.results.tree import prefixed
 from offwind_pin.signal.moment_spectrum import moment_spectrum
+
+_log = logging.getLogger(__name__)
 
 Progress = Callable[[float, float], None]
 Groups = dict[str, xr.Dataset | None]
@@ -76,12 +80,14 @@ def run_case(
     out: Path | str,
     *,
     report: bool = True,
+    overwrite: bool = False,
     progress: Progress | None = None,
 ) -> dict[str, Any]:
     """Solve a case and write ``results.nc``, ``report.html`` and ``summary.json``.
 
-    All input is checked before anything is written. A transient case that was stopped is continued
-    from the last block in ``out``.
+    All input is checked before anything is written. If ``out`` contains the finished results of the
+    same case from the same version, nothing is solved. A transient case that was stopped is
+    continued from the last block in ``out``.
 
     Parameters
     ----------
@@ -91,6 +97,8 @@ def run_case(
         Directory for the results, created if necessary.
     report : bool
         Whether to write ``report.html``; ``offwind report`` makes it later.
+    overwrite : bool
+        Whether earlier results in ``out`` are replaced.
     progress : callable, optional
         Called with simulated time and duration, in s.
 
@@ -102,46 +110,83 @@ def run_case(
     Raises
     ------
     InputError
-        Something in the case cannot be used.
+        Something in the case cannot be used; or ``out`` contains results of another case or files
+        of other origin with the names of the results, or another run is writing to it.
     SolverError, InterruptedSimulation
         The solve stopped; the results so far are in ``out``.
+    OSError
+        The disk is full, or ``out`` was removed.
     """
     out = Path(out)
     check_writable(out)
     if not isinstance(case, Case):
         case = load_case(case)
-    begun = time_reached(out)
+    run = {
+        "kind": "case",
+        "case": case.name,
+        "seed": case.seed,
+        "content_hash": case.content_hash,
+        "offwind_pin_version": versions()["offwind_pin_version"],
+    }
+    with RunFolder(out, run, overwrite=overwrite) as folder:
+        try:
+            if folder.state == "complete":
+                _log.info("%s: already complete", out)
+            elif folder.state != "solved":
+                _solve_and_write(case, folder, progress)
+            return _finish(folder, report=report)
+        except OSError:
+            if folder.manifest is not None and out.is_dir():
+                _log.error("results so far are kept in %s; the same run continues from them", out)
+            raise
+
+
+def _solve_and_write(case: Case, folder: RunFolder, progress: Progress | None) -> None:
+    """Leave all groups in ``results.nc``."""
+    begun = folder.time_reached
     clock = time.perf_counter()
     system = None
     try:
         system = case.build()
-        solved = _solve(case, system, out, progress)
+        solved = _solve(case, system, folder, progress)
     except (SolverError, InterruptedSimulation) as stopped:
         wall = time.perf_counter() - clock
-        _write_stopped(case, system, out, stopped, wall, begun)
+        _write_stopped(case, system, folder, stopped, wall, begun)
         raise
     wall = time.perf_counter() - clock
-    # The summary is written last: where it exists, the other files belong to it.
-    (out / "summary.json").unlink(missing_ok=True)
-    (out / "report.html").unlink(missing_ok=True)
-    if solved.root is not None:
-        write_netcdf(out / FILE, solved.root.assign_attrs(case=case.name))
+    for name in (SUMMARY, REPORT):  # of this run when it was interrupted
+        folder.remove(name)
     account = _case_dataset(case, "complete", wall, solved.simulated, begun)
-    _add_groups(out / FILE, {"case": account, **_description(case, system), **solved.groups})
-    with open_case(out) as tree:
-        found = summary(tree)
-        if report:
-            write_text(out / "report.html", render(tree))
-    write_json(out / "summary.json", found)
-    return found
+    with folder.replacing(RESULTS) as path:
+        if solved.root is not None:
+            write_netcdf(path, solved.root.assign_attrs(case=case.name))
+        _add_groups(path, {"case": account, **_description(case, system), **solved.groups})
+    folder.update(state="solved")
 
 
-def _solve(case: Case, system: System, out: Path, progress: Progress | None) -> _Solved:
+def _finish(folder: RunFolder, *, report: bool) -> dict[str, Any]:
+    """Write what is made of the results, and remove the blocks; returns the summary."""
+    directory = folder.directory
+    missing = [name for name in (SUMMARY, REPORT) if not (directory / name).exists()]
+    if folder.state == "solved" or SUMMARY in missing or (report and REPORT in missing):
+        with open_case(directory) as tree:
+            found = summary(tree)
+            page = render(tree) if report else None
+        if page is not None:
+            with folder.replacing(REPORT) as path:
+                write_text(path, page)
+        with folder.replacing(SUMMARY) as path:
+            write_json(path, found)
+    folder.finish()
+    return dict(json.loads((directory / SUMMARY).read_bytes()))
+
+
+def _solve(case: Case, system: System, folder: RunFolder, progress: Progress | None) -> _Solved:
     if isinstance(case.analysis, StaticAnalysis):
         return _solve_static(case, system, case.analysis, progress)
     if isinstance(case.analysis, ModalAnalysis):
         return _solve_modes(case, system, case.analysis, progress)
-    return _solve_transient(case, system, case.analysis, out, progress)
+    return _solve_transient(case, system, case.analysis, folder, progress)
 
 
 def _solve_static(
@@ -182,7 +227,7 @@ def _solve_transient(
     case: Case,
     system: System,
     analysis: TransientAnalysis,
-    out: Path,
+    folder: RunFolder,
     progress: Progress | None,
 ) -> _Solved:
     turbine = case.turbine
@@ -201,7 +246,7 @@ def _solve_transient(
         ground_motion=None if shaking is None else shaking.motion,
         engine=analysis.engine,
         save_at=SaveAt(analysis.output_dt),
-        directory=out,
+        directory=folder,
         provenance={"case": case.name, "seed": case.seed, **top.provenance},
         progress=None if progress is None else lambda now: progress(now, analysis.duration),
     )
@@ -321,22 +366,25 @@ def _add_groups(path: Path, groups: Groups) -> None:
 def _write_stopped(
     case: Case,
     system: System | None,
-    out: Path,
+    folder: RunFolder,
     stopped: SolverError | InterruptedSimulation,
     wall: float,
     begun: float,
 ) -> None:
     """Summary and results of a run that stopped; its histories so far are in ``results.nc``."""
-    status = "failed" if isinstance(stopped, SolverError) else "interrupted"
-    (out / "report.html").unlink(missing_ok=True)
+    status: State = "failed" if isinstance(stopped, SolverError) else "interrupted"
+    folder.remove(REPORT)
     histories = stopped.results if isinstance(case.analysis, TransientAnalysis) else None
     reached = 0.0 if stopped.results is None else float(stopped.results["time"][-1])
     account = _case_dataset(case, status, wall, reached, begun)
     account.attrs["message"] = str(stopped)
     if histories is None or system is None:
-        (out / FILE).unlink(missing_ok=True)
+        folder.remove(RESULTS)
     else:
         soil = _soil(system, None, histories)
         groups = {"case": account, **_description(case, system), "soil": soil}
-        _add_groups(out / FILE, groups)
-    write_json(out / "summary.json", summary_head(account.attrs))
+        with folder.replacing(RESULTS) as path:
+            _add_groups(path, groups)
+    with folder.replacing(SUMMARY) as path:
+        write_json(path, summary_head(account.attrs))
+    folder.update(state=status)

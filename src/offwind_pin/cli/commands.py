@@ -15,7 +15,7 @@ import typer
 
 from offwind_pin.analysis.foundation.registry import FOUNDATIONS
 from offwind_pin.cases.shipped import shipped_cases
-from offwind_pin.cli.exit_codes import EXIT_SYSTEM
+from offwind_pin.cli.exit_codes import EXIT_INPUT, EXIT_SOLVER, EXIT_SYSTEM
 from offwind_pin.definitions.element import Element
 from offwind_pin.definitions.engine import Engine
 from offwind_pin.definitions.shipped import shipped_turbines
@@ -215,33 +215,74 @@ def soil_command(
 @app.command()
 def run(
     case: Annotated[
-        str,
+        list[str],
         typer.Argument(
-            help=f"Shipped name ({', '.join(shipped_cases())}) or a YAML file.",
+            help=f"Shipped names ({', '.join(shipped_cases())}) or YAML files.",
             autocompletion=_complete_case,
         ),
     ],
-    out: Annotated[Path, typer.Option(help="Directory for the results.")],
+    out: Annotated[
+        Path,
+        typer.Option(
+            help="Directory for the results; of several cases or seeds, each has one inside, "
+            "such as DIR/oc6-lc5.1/seed_0001."
+        ),
+    ],
+    seed: Annotated[
+        int | None, typer.Option(help="Seed of everything random, in place of the case's.")
+    ] = None,
+    seeds: Annotated[str | None, typer.Option(help="Several seeds: 1-6, or 1,4,7-9.")] = None,
+    overwrite: Annotated[  # noqa: FBT002
+        bool, typer.Option("--overwrite", help="Replace earlier results of offwind run.")
+    ] = False,
     report: Annotated[  # noqa: FBT002
         bool, typer.Option(help="Write report.html; offwind report makes it later.")
     ] = True,
     as_json: JsonOption = False,  # noqa: FBT002
 ) -> None:
-    """Solve a load case; write results.nc, report.html and summary.json."""
+    """Solve load cases; write results.nc, report.html and summary.json.
+
+    A stopped run is continued; finished results of the same case are kept.
+    """
+    from offwind_pin.base.errors import InputError, SolverError
     from offwind_pin.cases.case import load_case
+    from offwind_pin.cases.planned_runs import planned_runs, seed_numbers
     from offwind_pin.cases.run import run_case
     from offwind_pin.cli.progress import simulation_progress
     from offwind_pin.cli.tables import print_values
 
-    definition = load_case(case)
-    with simulation_progress() as progress:
-        summary = run_case(definition, out, report=report, progress=progress)
+    if seed is not None and seeds is not None:
+        raise InputError("--seed", seed, "either --seed or --seeds", "Leave one of them out.")
+    numbers = None if seeds is None else seed_numbers(seeds)
+    runs = planned_runs(
+        [load_case(name) for name in case], numbers if seed is None else [seed], out
+    )
+    rows, codes = [], []
+    for planned in runs:
+        try:
+            with simulation_progress() as progress:
+                summary = run_case(
+                    planned.case,
+                    planned.directory,
+                    report=report,
+                    overwrite=overwrite,
+                    progress=progress,
+                )
+        except (InputError, SolverError) as error:
+            if len(runs) == 1:
+                raise
+            typer.echo(f"offwind: {planned.directory}: {error}", err=True)
+            codes.append(EXIT_INPUT if isinstance(error, InputError) else EXIT_SOLVER)
+            summary = {"case": planned.case.name, "status": "failed", "message": str(error)}
+        rows.append({"directory": str(planned.directory), "seed": planned.case.seed, **summary})
+        if not as_json and summary["status"] == "complete":
+            print_values(planned.case.title or planned.case.name, summary)
+            if report:
+                typer.echo(f"Report: {planned.directory / 'report.html'}")
     if as_json:
-        _print_json(summary)
-        return
-    print_values(definition.title or definition.name, summary)
-    if report:
-        typer.echo(f"Report: {out / 'report.html'}")
+        _print_json(summary if len(runs) == 1 else {"runs": rows})
+    if codes:
+        raise typer.Exit(min(codes))
 
 
 @app.command("report")

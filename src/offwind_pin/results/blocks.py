@@ -1,28 +1,25 @@
-"""Blocks of a time history: arrays by name, kept in memory, or as files that a killed run leaves.
+"""Blocks of a time history: arrays by name, in memory, or in files that a killed run leaves.
 
-Each file is written whole and holds the state at its end, so that a run goes on from the last one.
+Each block contains the state at its end, so that a run is resumed after the last one.
 """
 
 from __future__ import annotations
 
-import json
-import zipfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from offwind_pin.base.definition import file_digest
 from offwind_pin.base.errors import InputError
-from offwind_pin.base.whole_files import whole_file, write_json
+from offwind_pin.base.whole_files import whole_file
+from offwind_pin.results.manifest import BLOCKS, BlockEntry, Simulation
+from offwind_pin.results.run_folder import RunFolder
 
 Array = NDArray[np.float64]
 Block = dict[str, Array]
-
-
-BLOCK_FOLDER = "blocks"
-"""Folder of a run's blocks inside the directory of its results."""
 
 
 class BlockStore(Protocol):
@@ -61,96 +58,93 @@ class MemoryStore:
 
 
 class FolderStore:
-    """Blocks as files of a folder, which belongs to one run.
+    """Blocks as files of a run's directory.
 
     Parameters
     ----------
-    folder : Path
-        Made if it is not there.
-    run : dict of str to object
-        Plain data that tell this run from every other.
+    folder : RunFolder
+    simulation : Simulation
+        What determines the time history.
 
     Raises
     ------
     InputError
-        The folder holds another run's blocks, or something else.
+        The directory contains a time history that is determined by something else.
     """
 
-    def __init__(self, folder: Path, run: dict[str, object]) -> None:
-        self.folder = folder
-        self._label = folder / "run.json"
-        if self._label.exists() or self._path(0).exists():
-            self._check_owner(run)
-        else:
-            write_json(self._label, run)
-        self._count = 0
-        while self._path(self._count).is_file():
-            self._count += 1
+    def __init__(self, folder: RunFolder, simulation: Simulation) -> None:
+        self._folder = folder
+        self._simulation = simulation
+        manifest = folder.manifest
+        if manifest is not None and manifest.simulation is not None:
+            self._check_same(manifest.simulation)
 
     def append(self, block: Block) -> None:
-        with whole_file(self._path(self._count)) as temporary, temporary.open("wb") as file:
-            np.savez(file, allow_pickle=False, **block)
-        self._count += 1
+        """Write a block.
+
+        Its entry in the manifest comes before the file, so that there never is a file which the
+        manifest does not list.
+        """
+        manifest = self._folder.begin()
+        if manifest.simulation is None:
+            self._folder.update(simulation=self._simulation, blocks=())
+        index = self._index
+        path = self._path(f"block_{len(index):06d}.npz")
+        self._folder.check()
+        with whole_file(path) as temporary:
+            with temporary.open("wb") as file:
+                np.savez(file, allow_pickle=False, **block)
+            entry = BlockEntry(
+                file=path.name,
+                begin_s=float(block["time"][0]),
+                end_s=float(block["time"][-1]),
+                sha256=file_digest(temporary),
+            )
+            self._folder.update(blocks=(*index, entry))
 
     def __iter__(self) -> Iterator[Block]:
-        return (self._read(i) for i in range(self._count))
+        return (self._read(entry) for entry in self._index)
 
     def __len__(self) -> int:
-        return self._count
+        return len(self._index)
 
     def last(self) -> Block:
-        return self._read(self._count - 1)
+        return self._read(self._index[-1])
 
-    def remove(self) -> None:
-        """Delete the folder, once its blocks stand elsewhere.
+    @property
+    def _index(self) -> tuple[BlockEntry, ...]:
+        """An interruption in the midst of :meth:`append` leaves an entry without a file."""
+        manifest = self._folder.manifest
+        if manifest is None or not manifest.blocks:
+            return ()
+        *before, last = manifest.blocks
+        return manifest.blocks if self._path(last.file).exists() else tuple(before)
 
-        The label goes last, so that what a kill leaves is still known for this run's.
-        """
-        for number in reversed(range(self._count)):
-            self._path(number).unlink()
-        for path in self.folder.iterdir():
-            if path != self._label:
-                path.unlink()
-        self._label.unlink()
-        self.folder.rmdir()
+    def _path(self, name: str) -> Path:
+        return self._folder.directory / BLOCKS / name
 
-    def _path(self, number: int) -> Path:
-        return self.folder / f"block_{number:06d}.npz"
-
-    def _read(self, number: int) -> Block:
-        return _read_block(self._path(number))
-
-    def _check_owner(self, run: dict[str, object]) -> None:
-        try:
-            found = json.loads(self._label.read_text(encoding="utf-8"))
-        except (OSError, UnicodeDecodeError, json.JSONDecodeError):
-            found = None
-        if found != json.loads(json.dumps(run)):
-            differs = (
-                [key for key in run if found.get(key) != json.loads(json.dumps(run[key]))]
-                if isinstance(found, dict)
-                else ["run.json"]
-            )
-            raise InputError(
-                str(self.folder),
-                f"blocks of another run (other {', '.join(differs) or 'keys'})",
-                "blocks of this run, to go on from",
-                "Delete the folder to start again, or name another directory.",
-            )
-
-
-def time_reached(directory: Path) -> float:
-    """Simulated time in s that a stopped run's blocks in a directory of results reach, or zero."""
-    files = sorted((directory / BLOCK_FOLDER).glob("block_*.npz"))
-    if not files:
-        return 0.0
-    return float(_read_block(files[-1])["time"][-1])
-
-
-def _read_block(path: Path) -> Block:
-    try:
+    def _read(self, entry: BlockEntry) -> Block:
+        path = self._path(entry.file)
+        self._folder.check()
         with path.open("rb") as raw, np.load(raw, allow_pickle=False) as file:
             return {name: file[name] for name in file.files}
-    except (OSError, ValueError, zipfile.BadZipFile) as error:
-        remedy = "Delete the folder to start again."
-        raise InputError(str(path), str(error), "a whole block of results", remedy) from None
+
+    def _check_same(self, found: Simulation) -> None:
+        """Of a complete run, only the version of this package has to be the same."""
+        asked = self._simulation
+        differs = _differences(found.settings, asked.settings)
+        differs += _differences(found.inputs, asked.inputs)
+        if self._folder.state != "complete":
+            differs += _differences(found.environment, asked.environment)
+        if differs:
+            raise InputError(
+                str(self._folder.directory),
+                f"results of another simulation (other {', '.join(differs)})",
+                "results of this simulation, or a directory without results",
+                "Name another directory, or start again with --overwrite (overwrite=True in "
+                "Python).",
+            )
+
+
+def _differences(found: Mapping[str, object], asked: Mapping[str, object]) -> list[str]:
+    return [name for name in {**asked, **found} if found.get(name) != asked.get(name)]

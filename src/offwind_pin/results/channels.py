@@ -10,6 +10,7 @@ from __future__ import annotations
 from typing import Any, Literal
 
 import numpy as np
+import xarray as xr
 
 from offwind_pin.base.channels import Channel
 
@@ -139,3 +140,41 @@ CHANNELS = (
     _scalar("solver_iterations", "1", "Newton iterations in the step", "iterations", dtype="int32"),
     _scalar("solver_residual", "1", "largest residual relative to the load scale", "residual"),
 )
+
+COORDINATES = {
+    "time": {"long_name": "simulated time", "units": "s"},
+    "height": {"long_name": "undeformed height", "units": "m"},
+    "direction": {"long_name": "axis of the inertial frame"},
+    "component": {"long_name": "component of a load"},
+    "segment": {"long_name": "heights of the ends of the segment"},
+    "holder": {"long_name": "kind of stored energy"},
+    "sink": {"long_name": "what dissipates energy"},
+    "source": {"long_name": "what does work on the structure"},
+    "level": {"long_name": "height at which the ground motion is recorded", "units": "m"},
+    "soil_node": {"long_name": "undeformed height of the soil node", "units": "m"},
+    "damper": {"long_name": "tuned mass damper"},
+    "across": {"long_name": "axis of the carrier"},
+    "resultant": {"long_name": "section force or section moment"},
+}
+"""Attributes of the coordinates of a time history."""
+
+
+def channel_fault(histories: xr.Dataset) -> str | None:
+    """What in a dataset of time histories differs from the table; None where nothing does."""
+    if "time" not in histories.variables:
+        return "no times"
+    time = histories["time"].to_numpy()
+    if time.dtype.kind != "f" or not np.all(np.diff(time) > 0) or not np.all(np.isfinite(time)):
+        return "times that are not numbers in rising order"
+    for channel in CHANNELS:
+        if channel.name not in histories:  # of a dimension that the run lacks, or not kept
+            continue
+        found = histories[channel.name]
+        for what, is_there, declared in (
+            ("dimensions", found.dims, ("time", *channel.dims)),
+            ("units", found.attrs.get("units"), channel.units),
+            ("type", found.dtype.kind, np.dtype(channel.dtype).kind),
+        ):
+            if is_there != declared:
+                return f"channel {channel.name}, {what} {is_there}, not {declared}"
+    return None

@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from importlib import metadata
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -17,7 +16,9 @@ from offwind_pin.base.channels import FRAME, Channel
 from offwind_pin.base.errors import InputError
 from offwind_pin.base.whole_files import append_netcdf
 from offwind_pin.results.blocks import Block, BlockStore
-from offwind_pin.results.channels import CHANNELS
+from offwind_pin.results.channels import CHANNELS, COORDINATES
+from offwind_pin.results.manifest import RESULTS
+from offwind_pin.results.run_folder import RunFolder
 from offwind_pin.results.tree import TITLES
 
 Array = NDArray[np.float64]
@@ -28,23 +29,6 @@ SINKS = ("joint_dampers", "foundation")
 
 _ENERGIES = ("stored", "dissipated", "worked")
 """Arrays that the energy balance is made of."""
-
-COORDINATES = {
-    "time": {"long_name": "simulated time", "units": "s"},
-    "height": {"long_name": "undeformed height", "units": "m"},
-    "direction": {"long_name": "axis of the inertial frame"},
-    "component": {"long_name": "component of a load"},
-    "segment": {"long_name": "heights of the ends of the segment"},
-    "holder": {"long_name": "kind of stored energy"},
-    "sink": {"long_name": "what dissipates energy"},
-    "source": {"long_name": "what does work on the structure"},
-    "level": {"long_name": "height at which the ground motion is recorded", "units": "m"},
-    "soil_node": {"long_name": "undeformed height of the soil node", "units": "m"},
-    "damper": {"long_name": "tuned mass damper"},
-    "across": {"long_name": "axis of the carrier"},
-    "resultant": {"long_name": "section force or section moment"},
-}
-"""Attributes of the coordinates of a time history."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,22 +104,20 @@ class HistoryWriter:
         names = {"time", *_ENERGIES, *(channel.record or channel.name for channel in self.channels)}
         return names | ({"section_load", "inertial_load"} if self.inertial_damping else set())
 
-    def write(self, store: BlockStore, status: str, directory: Path | str | None) -> xr.Dataset:
-        """Dataset of all blocks; with a directory it is in ``results.nc`` there.
+    def write(self, store: BlockStore, status: str, folder: RunFolder | None) -> xr.Dataset:
+        """Dataset of all blocks; with a folder it is written to ``results.nc`` and read from there.
 
         No more than one block is in memory at a time if the dataset goes to a file.
         """
         start = np.sum(next(iter(store))["stored"][0]) if len(store) else 0.0
-        if directory is None:
+        if folder is None:
             blocks = list(store)
             records = [name for name in blocks[0] if not name.startswith("state_")]
             whole = {name: np.concatenate([block[name] for block in blocks]) for name in records}
             return self._dataset(whole, status, start)
-        path = Path(directory) / "results.nc"
-        for left_by_a_kill in path.parent.glob(".results.*.nc"):
-            left_by_a_kill.unlink()
         dtypes = {channel.name: channel.dtype for channel in self.channels}
-        append_netcdf(path, (self._dataset(block, status, start) for block in store), dtypes)
+        with folder.replacing(RESULTS) as path:
+            append_netcdf(path, (self._dataset(block, status, start) for block in store), dtypes)
         return xr.open_dataset(path, engine="netcdf4")
 
     def _dataset(self, block: Block, status: str, start: float) -> xr.Dataset:

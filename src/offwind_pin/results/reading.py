@@ -7,8 +7,10 @@ from pathlib import Path
 import xarray as xr
 
 from offwind_pin.base.errors import InputError
+from offwind_pin.results.channels import channel_fault
+from offwind_pin.results.manifest import RESULTS
+from offwind_pin.results.tree import TITLES
 
-FILE = "results.nc"
 _TITLE = "offwind-pin"
 _REMEDY = "Name the output directory of `offwind run`, or a results.nc."
 
@@ -29,10 +31,10 @@ def open_results(source: Path | str) -> xr.DataTree:
     Raises
     ------
     InputError
-        No results found, or a file of another origin.
+        No results found, a file of another origin, or channels other than those declared.
     """
     given = Path(source)
-    path = given / FILE if given.is_dir() else given
+    path = given / RESULTS if given.is_dir() else given
     if not path.is_file():
         raise InputError("results", str(path), "an existing file", _REMEDY)
     try:
@@ -45,6 +47,16 @@ def open_results(source: Path | str) -> xr.DataTree:
         tree.close()
         allowed = f"a title that begins with {_TITLE!r} (found {title!r})"
         raise InputError("results", str(path), allowed, _REMEDY)
+    if title == TITLES["histories"]:
+        fault = channel_fault(tree.to_dataset(inherit=False))
+        if fault is not None:
+            tree.close()
+            raise InputError(
+                str(path),
+                fault,
+                "time histories as this version writes them",
+                "Run the case again.",
+            )
     return tree
 
 
