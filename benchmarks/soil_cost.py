@@ -22,9 +22,8 @@ from step_parts import STEPS, Motion, in_motion
 
 import offwind_pin as ow
 from offwind_pin.base.kernels import kernel
-from offwind_pin.base.records import part
+from offwind_pin.base.records import matrix, part
 from offwind_pin.dynamics.compiled.chain import Run
-from offwind_pin.dynamics.compiled.residual import constants_of
 from offwind_pin.loads.point_load import tangent_kernel
 from offwind_pin.loads.tower_top.load_history import TowerTopLoad
 
@@ -207,8 +206,8 @@ def _tangents(run: Run, time_inputs: Array, chosen: Indices, count: int) -> None
             numbers = part(time_inputs, model.first_input[i], model.first_input[i + 1])
             past = part(memory, model.first_memory[i], model.first_memory[i + 1])
             points = part(motion, first, last)
-            arguments = (points, constants_of(model, i), numbers, past, part(blocks, first, last))
-            _call(model.tangents[i], arguments)
+            table = matrix(model.constants, model.first_constant[i], last - first, model.columns[i])
+            _call(model.tangents[i], (points, table, numbers, past, part(blocks, first, last)))
 
 
 if __name__ == "__main__":

@@ -19,10 +19,10 @@ from offwind_pin.analysis.integrators import GeneralizedAlpha
 from offwind_pin.analysis.static import load_scale, static
 from offwind_pin.base.kernels import kernel
 from offwind_pin.dynamics.compiled.chain import CompiledChain, Run
-from offwind_pin.dynamics.compiled.forward_kinematics import move_bodies, move_points
+from offwind_pin.dynamics.compiled.model import evaluation_kernel
 from offwind_pin.dynamics.compiled.newton_matrix import factorise_kernel, solve_kernel
 from offwind_pin.dynamics.compiled.recording import note_kernel
-from offwind_pin.dynamics.compiled.residual import evaluate_kernel, evaluate_loads
+from offwind_pin.dynamics.compiled.residual import state_kernel
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.point_load import PointLoad
 from offwind_pin.solvers import generalized_alpha
@@ -120,8 +120,8 @@ def part_runs(motion: Motion, sections: Any, every: int) -> dict[str, Callable[[
     instants = motion.rows[:, 0].copy()
     chain.factorise(row, q, v, a, dv_dq, da_dq)
     return {
-        "motion": lambda n: _moves(run, n),
-        "loads": lambda n: _loads(run, row, n),
+        "motion": lambda n: _evaluations(run, row, 0, 2, n),
+        "loads": lambda n: _evaluations(run, row, 2, 3, n),
         "balance": lambda n: _balances(run, row, n),
         "solution": lambda n: _solutions(run, residual, n),
         "factorisation": lambda n: _factorisations(run, row, dv_dq, da_dq, n),
@@ -178,21 +178,17 @@ def numbers(chain: CompiledChain, instants: Array, count: int) -> None:
         chain.time_inputs(instants + (i % 7) * length)
 
 
-_call_evaluate, _call_factorise = evaluate_kernel.call, factorise_kernel.call
+_call_evaluate, _call_factorise = state_kernel.call, factorise_kernel.call
+_call_part = evaluation_kernel.call
 _call_solve, _call_take_note = solve_kernel.call, note_kernel.call
 
 
 @kernel
-def _moves(run: Run, count: int) -> None:
+def _evaluations(run: Run, row: Array, first: int, last: int, count: int) -> None:
+    """Some of the kernels that evaluate a state: bodies and points move, then loads act."""
     for _ in range(count):
-        move_bodies(run.model, run.data, run.state)
-        move_points(run.model, run.data)
-
-
-@kernel
-def _loads(run: Run, row: Array, count: int) -> None:
-    for _ in range(count):
-        evaluate_loads(run.model, run.data, run.state, row)
+        for i in range(first, last):
+            _call_part(run.model.evaluation[i], (run.model, run.data, run.state, row))
 
 
 @kernel

@@ -246,6 +246,20 @@ class TestModes:
         stop(driver, 0.75 * period)
         assert changed_share(one, picture(driver)) > 0.005
 
+    def test_narrow_window_has_the_card_below(self, driver: webdriver.Chrome, page: Path) -> None:
+        """On a phone the structures are above the card, tags and all."""
+        driver.set_window_size(500, 900)
+        try:
+            Visit(driver, page.as_uri())
+            card, *tags = driver.execute_script(
+                "return [document.getElementById('card'), ...document.querySelectorAll('.tag')]"
+                ".map(part => part.getBoundingClientRect().toJSON())"
+            )
+            assert card["bottom"] <= driver.execute_script("return innerHeight")
+            assert max(tag["bottom"] for tag in tags) < card["top"]
+        finally:
+            driver.set_window_size(1200, 900)
+
     @pytest.mark.parametrize(("width", "height"), [(1200, 900), (700, 520)])
     def test_card_fits(self, driver: webdriver.Chrome, page: Path, width: int, height: int) -> None:
         driver.set_window_size(width, height)

@@ -32,6 +32,7 @@ HEAVY = {
 RUN = "from offwind_pin.cli import main; main()"
 
 DRAWING = {"jinja2", "matplotlib", "meshcat", "netCDF4", "pandas", "xarray"}
+PINOCCHIO = {"pinocchio"}
 OPTIMISERS = {"scipy.interpolate", "scipy.optimize", "scipy.signal", "scipy.special", "scipy.stats"}
 
 
@@ -66,14 +67,14 @@ def test_help_loads_no_analysis(arguments: tuple[str, ...]) -> None:
 
 
 def test_modes_draw_nothing() -> None:
-    """Neither figures nor data sets nor optimisers are needed for natural frequencies."""
+    """Natural frequencies need neither figures nor data sets, optimisers or Pinocchio."""
     modules = command("modes", "oc6_phase2", "--json", "--elements", "8")
-    assert not modules & (DRAWING | OPTIMISERS)
+    assert not modules & (DRAWING | OPTIMISERS | PINOCCHIO)
     assert "numba" in modules  # negative control: what is used is found
 
 
 def test_show_draws_nothing() -> None:
-    assert not command("show", "oc6_phase2", "--json") & DRAWING
+    assert not command("show", "oc6_phase2", "--json") & (DRAWING | PINOCCHIO)
 
 
 def test_help_names_every_foundation() -> None:

@@ -6,7 +6,8 @@ one calls. Divisions follow NumPy: by zero they give infinity or NaN.
 
 A kernel that calls another one compiles it again as a part of itself. Large ones are therefore
 called by address (:class:`ExchangeableKernel`), so that each is compiled once, and only where it is
-needed; parts of one large kernel are :func:`inlined` in it.
+needed. Numba takes more than linearly longer for a longer function: several short kernels called
+one after another compile faster than one.
 """
 
 from __future__ import annotations
@@ -21,7 +22,8 @@ from pathlib import Path
 from typing import Any, TypeVar, cast
 
 from numba import config, njit, types
-from numba.core import cgutils, dispatcher
+from numba.core import cgutils, dispatcher, typed_passes, untyped_passes
+from numba.core.compiler import CompilerBase, DefaultPassBuilder, Flags
 from numba.extending import intrinsic
 
 from offwind_pin.base.kernel_cache import KernelCache
@@ -31,7 +33,49 @@ _log = logging.getLogger(__name__)
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 _OPTIONS: dict[str, Any] = {"cache": True, "error_model": "numpy", "no_cfunc_wrapper": True}
-_INNER: dict[str, Any] = _OPTIONS | {"no_cpython_wrapper": True}
+
+_UNUSED = {
+    untyped_passes.InlineClosureLikes,
+    untyped_passes.RewriteSemanticConstants,
+    untyped_passes.DeadBranchPrune,
+    untyped_passes.MakeFunctionToJitFunction,
+    untyped_passes.InlineInlinables,
+    untyped_passes.FindLiterallyCalls,
+    untyped_passes.LiteralUnroll,
+    untyped_passes.LiteralPropagationSubPipelinePass,
+    typed_passes.NopythonRewrites,
+    typed_passes.DumpParforDiagnostics,
+}
+"""Steps of Numba's compiler for closures, literals, and expressions of whole arrays."""
+
+
+class _KnownFlags(Flags):
+    """Compiler flags whose values are listed once: Numba compares them thousands of times."""
+
+    @cached_property
+    def _known(self) -> dict[str, Any]:
+        return dict(super().values())  # type: ignore[no-untyped-call]
+
+    def values(self) -> dict[str, Any]:
+        return self._known
+
+
+class _LeanCompiler(CompilerBase):
+    """Numba's compiler without the steps that the kernels of this package do not need."""
+
+    def __init__(self, *arguments: Any) -> None:
+        super().__init__(*arguments)  # type: ignore[no-untyped-call]
+        self.state.flags = _KnownFlags(self.state.flags)  # type: ignore[no-untyped-call]
+
+    def define_pipelines(self) -> list[Any]:
+        manager: Any = DefaultPassBuilder.define_nopython_pipeline(self.state)  # type: ignore[no-untyped-call]
+        manager.passes = [step for step in manager.passes if step[0] not in _UNUSED]
+        manager.finalize()
+        return [manager]
+
+
+_LEAN: dict[str, Any] = _OPTIONS | {"pipeline_class": _LeanCompiler, "_nrt": False}
+"""For functions that make no arrays, so that none need be counted."""
 
 
 def kernel(function: Function) -> Function:
@@ -41,15 +85,9 @@ def kernel(function: Function) -> Function:
 
 
 def inner(function: Function) -> Function:
-    """The same for a function that only other kernels call."""
+    """The same for a function that only other kernels call; it makes no arrays."""
     with _own_cache():
-        return cast("Function", njit(**_INNER)(function))
-
-
-def inlined(function: Function) -> Function:
-    """The same for a part of one large kernel: it is compiled as if its text was there."""
-    with _own_cache():
-        return cast("Function", njit(inline="always", **_OPTIONS)(function))
+        return cast("Function", njit(**(_LEAN | {"no_cpython_wrapper": True}))(function))
 
 
 class ExchangeableKernel:
@@ -59,16 +97,18 @@ class ExchangeableKernel:
     calls it by that address (:attr:`KernelKind.call`).
     """
 
-    def __init__(self, function: Callable[..., Any], signature: Any, *, nogil: bool) -> None:
+    def __init__(
+        self, function: Callable[..., Any], signature: Any, options: dict[str, Any]
+    ) -> None:
         self._function = function
         self._signature = signature
-        self._nogil = nogil
+        self._options = options
         self.__doc__ = function.__doc__
 
     @cached_property
     def compiled(self) -> Any:
         with _own_cache():
-            return njit(self._signature, nogil=self._nogil, **_OPTIONS)(self._function)
+            return njit(self._signature, **self._options)(self._function)
 
     @cached_property
     def address(self) -> int:
@@ -86,17 +126,35 @@ class KernelKind:
     Attributes
     ----------
     signature : of Numba
-    nogil : whether a call from Python lets other threads run; not for functions that need Python
+    options : for Numba
     call : for kernels: ``call(address, arguments)`` calls by address with a tuple of arguments
     """
 
-    def __init__(self, signature: Any, *, nogil: bool = False) -> None:
+    def __init__(self, signature: Any, *, nogil: bool = False, python: bool = True) -> None:
+        """A kind of kernels.
+
+        Parameters
+        ----------
+        signature : Numba signature
+        nogil : bool
+            Whether a call from Python lets other threads run; not for functions that need Python.
+        python : bool
+            Whether Python calls them, not only other kernels.
+        """
         self.signature = signature
-        self.nogil = nogil
+        self.options: dict[str, Any] = {"nogil": nogil, "no_cpython_wrapper": not python}
         self.call = _caller(signature)
 
     def __call__(self, function: Callable[..., Any]) -> ExchangeableKernel:
-        return ExchangeableKernel(function, self.signature, nogil=self.nogil)
+        lean = function.__module__.partition(".")[0] == __name__.partition(".")[0]
+        return self._made(function, _LEAN if lean else _OPTIONS)
+
+    def allocating(self, function: Callable[..., Any]) -> ExchangeableKernel:
+        """The same for a function of this package that makes arrays or calls Python."""
+        return self._made(function, _OPTIONS)
+
+    def _made(self, function: Callable[..., Any], options: dict[str, Any]) -> ExchangeableKernel:
+        return ExchangeableKernel(function, self.signature, options | self.options)
 
 
 exchangeable = KernelKind

@@ -9,6 +9,7 @@ one word. Compiled code neither counts nor keeps references: the caller keeps th
 
 from __future__ import annotations
 
+import math
 import zlib
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar, Self, dataclass_transform, get_type_hints
@@ -26,7 +27,6 @@ from numba.extending import (
     register_model,
     unbox,
 )
-from numba.np.arrayobj import populate_array
 from numpy.typing import NDArray
 
 Number = Annotated[float, types.float64]
@@ -168,15 +168,23 @@ def _value(context: Any, builder: Any, kind: RecordType, pointer: Any, name: str
 
 def view(context: Any, builder: Any, kind: types.Array, data: Any, shape: list[Any]) -> Any:
     """A contiguous array at an address, in code that is being lowered; nobody owns its memory."""
-    size = context.get_abi_sizeof(context.get_data_type(kind.dtype))
-    step = context.get_constant(types.intp, size)
-    strides = [step]
-    for length in reversed(shape[1:]):
-        step = builder.mul(step, length)
-        strides.insert(0, step)
-    array = context.make_array(kind)(context, builder)
-    populate_array(array, data, shape, strides, size, None)  # type: ignore[no-untyped-call]
-    return array._getvalue()
+    fields: Any = context.data_model_manager[kind]
+    size = context.get_constant(
+        types.intp, context.get_abi_sizeof(context.get_data_type(kind.dtype))
+    )
+    array = _lowering.get_null_value(context.get_value_type(kind))
+
+    def insert(array: Any, name: str, value: Any, *place: int) -> Any:
+        return builder.insert_value(array, value, (fields.get_field_position(name), *place))
+
+    array = insert(array, "data", data)
+    array = insert(array, "itemsize", size)
+    step, count = size, context.get_constant(types.intp, 1)
+    for i in reversed(range(kind.ndim)):
+        array = insert(array, "shape", shape[i], i)
+        array = insert(array, "strides", step, i)
+        step, count = builder.mul(step, shape[i]), builder.mul(count, shape[i])
+    return insert(array, "nitems", count)
 
 
 def _part(typing: Any, array: Any, first: Any, last: Any) -> Any:
@@ -201,6 +209,52 @@ def _matrix(typing: Any, numbers: Any, first: Any, rows: Any, columns: Any) -> A
 
     return kind(numbers, types.intp, types.intp, types.intp), lower
 
+
+def _stack_row(typing: Any, length: Any) -> Any:
+    kind = types.Array(types.float64, 1, "C")
+
+    def lower(context: Any, builder: Any, used: Any, values: Any) -> Any:
+        return view(context, builder, kind, _room(context, builder, length), values)
+
+    return kind(length), lower
+
+
+def _stack_matrix(typing: Any, rows: Any, columns: Any) -> Any:
+    kind = types.Array(types.float64, 2, "C")
+
+    def lower(context: Any, builder: Any, used: Any, values: Any) -> Any:
+        return view(context, builder, kind, _room(context, builder, rows, columns), values)
+
+    return kind(rows, columns), lower
+
+
+def _room(context: Any, builder: Any, *lengths: types.IntegerLiteral) -> Any:
+    """Pointer to room for numbers among the local variables of a function."""
+    count = math.prod(length.literal_value for length in lengths)
+    number = context.get_data_type(types.float64)
+    return _lowering.alloca_once(builder, number, _lowering.intp_t(count))
+
+
+def _clear(typing: Any, array: Any) -> Any:
+    def lower(context: Any, builder: Any, used: Any, values: Any) -> Any:
+        whole = context.make_array(array)(context, builder, values[0])
+        size = builder.mul(whole.nitems, whole.itemsize)
+        _lowering.memset(builder, whole.data, size, 0)
+        return context.get_dummy_value()
+
+    return types.void(array), lower
+
+
+clear: Any = intrinsic(_clear)
+"""``clear(array)`` sets a contiguous array to zero."""
+
+stack_row: Any = intrinsic(prefer_literal=True)(_stack_row)
+stack_matrix: Any = intrinsic(prefer_literal=True)(_stack_matrix)
+"""``stack_row(length)`` and ``stack_matrix(rows, columns)``: local arrays of fixed size.
+
+Their contents are undefined at first. They take no allocator, and must not be returned. Each place
+in the source is one array, in a loop too.
+"""
 
 part: Any = intrinsic(_part)
 """``part(array, first, last)``: ``array[first:last]`` of a contiguous array, for bounds within it.

@@ -48,7 +48,7 @@ def _call_tangents(place: float, motion: Array, time_inputs: Array, blocks: Arra
     _register[int(place)].write_tangents(motion, time_inputs, blocks)
 
 
-@force_kernel
+@force_kernel.allocating
 def _forces(
     motion: Array, constants: Array, time_inputs: Array, memory: Array, force: Array
 ) -> float:
@@ -57,7 +57,7 @@ def _forces(
     return power  # noqa: RET504 (a block in object mode cannot return)
 
 
-@tangent_kernel
+@tangent_kernel.allocating
 def _tangents(
     motion: Array, constants: Array, time_inputs: Array, memory: Array, blocks: Array
 ) -> None:

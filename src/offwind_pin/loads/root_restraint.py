@@ -183,7 +183,7 @@ def _call(
     stiffness[:], damping[:] = restraint.tangents(displacement.copy(), velocity.copy())
 
 
-@restraint_kernel
+@restraint_kernel.allocating
 def _in_python(
     displacement: Array,
     velocity: Array,

@@ -8,13 +8,14 @@ from typing import ClassVar, Literal, get_args
 
 import numpy as np
 
-from offwind_pin.analysis.foundation.pile_only import axis_jacobian, pile_part
+from offwind_pin.analysis.foundation.pile_only import pile_part
 from offwind_pin.analysis.static import StaticResult, load_scale, static
 from offwind_pin.base.definition import Array
 from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError
 from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.dynamics.acting_loads import compiled_loads, split_memory
+from offwind_pin.dynamics.compiled.chain import CompiledChain
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.point_load import (
     BY_POSITION,
@@ -126,28 +127,29 @@ def condense(
     if system.chain.top == pile.chain.top:  # the topmost section has its own node's soil above it
         load = load - _soil_at_head(pile, q, about.memory)
     acting = [constant_load(pile.chain.top, load)]
-    equations = pile.equations(acting, None, about.memory)
-    lack = float(np.max(np.abs(equations.residual(0.0, q, rest, rest)))) / load_scale(system)
+    chain = CompiledChain(pile, acting)
+    chain.memory = about.memory
+    lack = float(np.max(np.abs(chain.residual(chain.mean_inputs(), q, rest, rest))))
+    lack /= load_scale(system)
     if lack > _OUT_OF_BALANCE:
         allowed = "a static state of this system, in balance"
         raise InputError(
             "about", f"{lack:.2g} of the loads", allowed, "Solve the static state again."
         )
     if stiffness == "secant":
-        motion = equations.chain_motion(q, rest)
         soil = tuple(
-            SecantSprings.of(springs, motion.points_at(springs.height), past)
+            SecantSprings.of(springs, chain.points_at(springs.height), past)
             for springs, past in _soil_and_past(pile, about.memory)
         )
         pile = replace(pile, foundation=replace(pile.foundation, soil=soil))
-        equations = pile.equations(acting, ramp_time=None)
-    tangent, _ = equations.tangents(0.0, q, rest)
-    jacobian = axis_jacobian(equations.chain_motion(q, rest), pile.chain.top)
-    flexibility = jacobian @ np.linalg.solve(tangent, jacobian.T)
+        chain = CompiledChain(pile, acting)
+    chain.factorise(chain.mean_inputs(), q, rest, rest, 0.0, 0.0)
+    jacobian = chain.top_jacobian()
+    flexibility = jacobian @ np.column_stack([chain.correction(row) for row in jacobian])
     return Condensation(
         kind=stiffness,
         height=pile.chain.top,
-        stiffness=np.linalg.inv(flexibility),
+        stiffness=np.asarray(np.linalg.inv(flexibility), dtype=float),
         load=load,
         displacement=_displacement(pile, about),
     )
@@ -211,10 +213,11 @@ def _secants(pull: Array, moved: Array, tangents: Array) -> Array:
 
 def _soil_at_head(pile: System, q: Array, memory: Array) -> Array:
     """(6,) force and moment of the soil at the node that lies at the mudline, in N and N m."""
-    motion = pile.equations([], ramp_time=None).chain_motion(q, np.zeros(pile.nv))
+    chain, rest = CompiledChain(pile), np.zeros(pile.nv)
+    chain.residual(chain.mean_inputs(), q, rest, rest)
     total = np.zeros(6)
     for springs, past in _soil_and_past(pile, memory):
-        found = springs.forces(0.0, motion.points_at(springs.height), 0.0, past)
+        found = springs.forces(0.0, chain.points_at(springs.height), 0.0, past)
         at_head = springs.height == pile.chain.top
         total += np.concatenate([found.force[at_head].sum(0), found.moment[at_head].sum(0)])
     return total

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from offwind_pin.analysis.assemble import assemble
-from offwind_pin.analysis.foundation.pile_only import axis_jacobian, pile_only
+from offwind_pin.analysis.foundation.pile_only import pile_only
 from offwind_pin.analysis.static import axis_rotation, load_scale
 from offwind_pin.base.definition import Array
 from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError, SolverError
 from offwind_pin.definitions.element import Element
 from offwind_pin.definitions.turbine import Turbine
+from offwind_pin.dynamics.compiled.chain import CompiledChain
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.point_load import PointMotion
 from offwind_pin.loads.soil.foundation import distributed_springs
@@ -22,9 +22,6 @@ from offwind_pin.loads.tower_top.load_history import constant_load
 from offwind_pin.solvers.newton import NewtonResult, newton
 from offwind_pin.structure.chain import Elements
 from offwind_pin.structure.section import outer_diameter
-
-if TYPE_CHECKING:
-    from offwind_pin.dynamics.reference.equations import Equations
 
 _SHARE_OF_DIAMETER = 0.1
 """Mudline displacement over diameter at which a monopile counts as failed, as in the PISA tests
@@ -142,12 +139,14 @@ class _Press:
 
     def __init__(self, system: System, arm: float, *, by_load: bool) -> None:
         self.system = system
-        self._height = system.chain.top
+        self._height = np.array([system.chain.top])
         self.arm = arm
         self.by_load = by_load
         self.direction = np.array([1.0, 0.0, 0.0, 0.0, arm, 0.0])
         self.scale = load_scale(system)
         self.rest = np.zeros(system.nv)
+        self._chain = CompiledChain(system, [constant_load(system.chain.top, np.zeros(6))])
+        self._unloaded = self._chain.mean_inputs()
         self.unit = self._linear_stiffness()
         """Of the load among the unknowns, in N: it makes them alike in size."""
 
@@ -181,24 +180,19 @@ class _Press:
         """
 
         def residual(x: Array) -> Array:
-            equations = self._equations(self.unit * x[-1])
-            lack = equations.residual(0.0, x[:-1], self.rest, self.rest)
+            lack = self._evaluate(x)
             if self.by_load:
                 return np.append(lack, self.unit * x[-1] - goal)
-            return np.append(lack, (self._head(x).displacement[0, 0] - goal) * self.scale)
+            return np.append(lack, (self._head().displacement[0, 0] - goal) * self.scale)
 
         def correction(x: Array, lack: Array) -> Array:
-            equations = self._equations(self.unit * x[-1])
-            motion = equations.chain_motion(x[:-1], self.rest)
-            jacobian = axis_jacobian(motion, self._height)
-            matrix = np.zeros((len(x), len(x)))
-            matrix[:-1, :-1] = equations.tangents(0.0, x[:-1], self.rest)[0]
-            matrix[:-1, -1] = -self.unit * (jacobian.T @ self.direction)
+            pulled, jacobian = self._factorise(x)
+            moved = self._chain.correction(lack[:-1])
             if self.by_load:
-                matrix[-1, -1] = self.unit
+                more = lack[-1] / self.unit
             else:
-                matrix[-1, :-1] = self.scale * jacobian[0]
-            return np.asarray(np.linalg.solve(matrix, lack), dtype=float)
+                more = (lack[-1] / self.scale - jacobian[0] @ moved) / (jacobian[0] @ pulled)
+            return np.append(moved + more * pulled, more)
 
         moments = abs(self.unit * start[-1]) * (1 + abs(self.arm))
         return newton(
@@ -213,23 +207,35 @@ class _Press:
 
     def _linear_stiffness(self) -> float:
         """Load in N that would move the head by a metre if the soil stayed linear."""
-        equations = self._equations(0.0)
-        jacobian = axis_jacobian(equations.chain_motion(self.rest, self.rest), self._height)
-        tangent, _ = equations.tangents(0.0, self.rest, self.rest)
-        moved = np.linalg.solve(tangent, jacobian.T @ self.direction)
+        self.unit = 1.0
+        moved, jacobian = self._factorise(np.zeros(self.system.nv + 1))
         return float(1 / (jacobian[0] @ moved))
 
-    def _equations(self, load: float) -> Equations:
-        acting = constant_load(self._height, load * self.direction)
-        return self.system.equations([acting], ramp_time=None)
+    def _factorise(self, x: Array) -> tuple[Array, Array]:
+        """(nv,) motion of the joints per unit of load, and the head's Jacobian (6, nv)."""
+        self._chain.factorise(self._inputs(x), x[:-1], self.rest, self.rest, 0.0, 0.0)
+        jacobian = self._chain.top_jacobian()
+        return self._chain.correction(self.unit * (self.direction @ jacobian)), jacobian
 
-    def _head(self, x: Array) -> PointMotion:
-        motion = self._equations(0.0).chain_motion(x[:-1], self.rest)
-        return motion.points_at(np.array([self._height]))
+    def _evaluate(self, x: Array) -> Array:
+        """(nv,) residual of the joints."""
+        return self._chain.residual(self._inputs(x), x[:-1], self.rest, self.rest)
+
+    def _inputs(self, x: Array) -> Array:
+        """Time inputs of the chain; those of the load come last."""
+        return np.append(self._unloaded[:-6], self.unit * x[-1] * self.direction)
+
+    def _head(self) -> PointMotion:
+        """In the state last evaluated."""
+        return self._chain.points_at(self._height)
+
+    def _head_at(self, x: Array) -> PointMotion:
+        self._evaluate(x)
+        return self._head()
 
     def _result(self, found: list[Array]) -> Pushover:
         load = np.array([self.unit * x[-1] for x in found])
-        heads = [self._head(x) for x in found]
+        heads = [self._head_at(x) for x in found]
         return Pushover(
             arm=self.arm,
             load=load,
@@ -240,7 +246,7 @@ class _Press:
 
     def _failure(self, result: NewtonResult, goal: float, found: list[Array]) -> SolverError:
         so_far = self._result(found)
-        joint, size = self._equations(0.0).worst_joint(result.residual[:-1])
+        joint, size = self._chain.worst_joint(result.residual[:-1])
         what = f"under {goal:.6g} N" if self.by_load else f"at {goal:.6g} m"
         last = f"{so_far.load[-1]:.6g} N and {so_far.displacement[-1]:.6g} m at the mudline"
         return SolverError(

@@ -68,11 +68,11 @@ def curves_by_depth(
     figure = Figure(figsize=(FULL_WIDTH, 4.1))
     panels = figure.subplots(1, 1 if reached is None else 2, squeeze=False)[0]
     _curves(panels[0], soil, nodes, depth, color, _FURTHEST * diameter)
-    panels[0].set_title("As far as 3 % of the diameter")
+    panels[0].set_title("Up to 3 % of the diameter")
     if reached is not None:
         end = max(1.08 * float(np.max(reached[nodes])), 1e-6)
         used = _curves(panels[1], soil, nodes, depth, color, end, reached)
-        panels[1].set_title("As far as the state goes")
+        panels[1].set_title("Up to the largest displacement")
         panels[1].set_ylim(0, 1.25 * used if used > 0 else None)
     panels[0].set_ylabel("soil resistance p, MN/m")
     bar = figure.colorbar(color, ax=list(panels), pad=0.02, aspect=32)
@@ -140,7 +140,7 @@ def state_over_depth(
     panels[0].set_xlabel("largest displacement y, mm")
     panels[0].set_title("Displacement")
     panels[1].plot(initial / MEGA, depth, color=STEEL, lw=4, label="initial")
-    panels[1].plot(secant / MEGA, depth, color=BLUE, label="secant there", zorder=3)
+    panels[1].plot(secant / MEGA, depth, color=BLUE, label="secant at y", zorder=3)
     panels[1].set_xlabel("stiffness p / y, MN/m²")
     panels[1].set_title("Stiffness")
     panels[1].legend(loc="upper right")

@@ -12,6 +12,7 @@ from typing import Any, Literal, ParamSpec, TypeVar
 import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
 from numpy.typing import NDArray
@@ -87,7 +88,12 @@ def to_svg(figure: Figure, name: str) -> str:
     """
     buffer = StringIO()
     with mpl.rc_context({"svg.fonttype": "none", "svg.hashsalt": name}):
-        figure.savefig(buffer, format="svg", metadata={"Date": None})
+        # Figure.savefig would draw twice, the first time to lay out, which drawing does by itself
+        canvas, dpi = figure.canvas, figure.dpi
+        svg: Any = FigureCanvasSVG(figure)  # matplotlib's own drawing is untyped
+        svg.print_svg(buffer, metadata={"Date": None})
+        figure.set_canvas(canvas)
+        figure.set_dpi(dpi)
     text = buffer.getvalue()
     text = text[text.index("<svg") :]
     text = re.sub(r"\s*<metadata>.*?</metadata>", "", text, flags=re.DOTALL)

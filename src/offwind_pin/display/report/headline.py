@@ -81,7 +81,7 @@ def _spectrum_sentences(report: CaseReport) -> list[str]:
     peaks = [psd.peak_in(band)[1] for band in psd.bands[:2]]
     found = [f"{peak:.3f} Hz" for peak in peaks if peak is not None]
     if found:
-        said.append(f"in the bands of the bending modes, its spectrum peaks at {listing(found)}")
+        said.append(f"the spectrum of the mudline moment peaks at {listing(found)}")
     if psd.ratio is not None and any(
         row.quantity.startswith("PSD sum") for row in report.published
     ):
@@ -156,8 +156,8 @@ def _published_sentence(report: CaseReport) -> str:
     _, farthest, ours = max(compared, key=lambda entry: entry[0])
     how = difference(ours, farthest.value, farthest.unit)
     return (
-        f"{close} of {len(compared)} published values are met within {100 * CLOSE:g} %; the "
-        f"largest difference is that of {farthest.quantity}: {how}"
+        f"{close} of {len(compared)} published values are reproduced within {100 * CLOSE:g} %; "
+        f"the largest difference is in {farthest.quantity}: {how}"
     )
 
 
@@ -180,8 +180,8 @@ def _spectrum_cards(psd: MomentSpectrum | None) -> list[Card]:
     for band in psd.bands[:2]:
         mode, peak = psd.peak_in(band)
         if peak is not None:
-            where = f"by the {mode_name(mode)} mode" if mode else f"in {band.name}"
-            found.append(Card(f"{peak:.3f}", "Hz", f"peak of the mudline moment {where}"))
+            where = f"{mode_name(mode)} mode" if mode else band.name
+            found.append(Card(f"{peak:.3f}", "Hz", f"spectral peak of the mudline moment, {where}"))
     return found
 
 

@@ -204,15 +204,15 @@ def pushover_facts(soil: SoilOverview) -> list[tuple[str, str]]:
     push = soil.pushover
     facts = [
         ("largest load", quantity(push.load[-1] / MEGA, "MN")),
-        ("its moment at the mudline", quantity(push.moment[-1] / MEGA, "MN m")),
+        ("moment at the mudline", quantity(push.moment[-1] / MEGA, "MN m")),
         ("mudline displacement", quantity(push.displacement[-1], "m")),
         ("mudline rotation", quantity(float(np.degrees(push.rotation[-1])), "°")),
     ]
     if soil.macro_element is not None:
         load, turned = soil.macro_element[-1]
         facts += [
-            ("macro-element's load there", quantity(load / MEGA, "MN")),
-            ("macro-element's rotation there", quantity(float(np.degrees(turned)), "°")),
+            ("macro-element load there", quantity(load / MEGA, "MN")),
+            ("macro-element rotation there", quantity(float(np.degrees(turned)), "°")),
         ]
     return facts
 
@@ -269,7 +269,7 @@ def _cards(soil: SoilOverview) -> list[Card]:
         Card(
             number(push.load[-1] / MEGA, 3),
             "MN",
-            f"moves the mudline by {number(share, 2)} D, at {number(push.arm, 4)} m above it",
+            f"load {number(push.arm, 4)} m above the mudline that moves it by {number(share, 2)} D",
         )
     ]
     if soil.state is not None:
@@ -277,12 +277,12 @@ def _cards(soil: SoilOverview) -> list[Card]:
             Card(
                 number(1e3 * float(soil.state.displacement.max()), 3),
                 "mm",
-                "largest displacement of a node in the state",
+                "largest displacement of the pile",
             )
         )
         if np.any(np.isfinite(soil.state.utilisation)):
             worst = 100 * float(np.nanmax(soil.state.utilisation))
-            cards.append(Card(number(worst, 3), "%", "of the ultimate resistance, at most"))
+            cards.append(Card(number(worst, 3), "%", "largest share of the ultimate resistance"))
     if soil.fixity is not None:
         diameters = soil.fixity.length / soil.head_diameter
         cards.append(

@@ -37,7 +37,9 @@ class Place {
     this.tag.innerHTML = "";
     const name = document.createElement("b");
     name.textContent = modes.label[mode];
-    this.tag.append(name, " " + frequency(mode) + ", " + damping(mode));
+    const numbers = document.createElement("span");
+    numbers.textContent = " " + frequency(mode) + ", " + damping(mode);
+    this.tag.append(name, numbers);
   }
 
   // How the axis turns where it moves so: [x, y, z, rx, ry, rz] at the peak, times a factor.

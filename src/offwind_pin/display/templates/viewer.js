@@ -5,10 +5,11 @@ function bytes(text) {
 // Far enough for the whole structure to fit into a window of any shape. In the viewer y is up.
 function placeCamera(viewer) {
   const camera = viewer.camera, half = Math.tan(look.field_of_view_deg * Math.PI / 360);
-  // A wide window has room beside the card: the picture is fitted in and centred there.
-  const room = window.innerWidth > 900 ? 1 - 336 / window.innerWidth : 1;
-  const aspect = room * window.innerWidth / window.innerHeight;
-  const distance = Math.max(look.half_height / half, look.half_breadth / (half * aspect)) + 0.4 * (look.depth || look.half_breadth);
+  // A wide window has room beside the card, a narrow one above it: the picture is centred there.
+  const across = window.innerWidth > 900 ? 1 - 336 / window.innerWidth : 1;
+  const upwards = window.innerWidth > 600 ? 1 : 0.6;
+  const aspect = across * window.innerWidth / window.innerHeight;
+  const distance = Math.max(look.half_height / (half * upwards), look.half_breadth / (half * aspect)) + 0.4 * (look.depth || look.half_breadth);
   const [x, y, z] = look.from;
   camera.fov = look.field_of_view_deg;
   camera.near = distance / 100;
@@ -16,8 +17,7 @@ function placeCamera(viewer) {
   viewer.controls.target.set(0, look.centre, 0);
   camera.position.set(x * distance, look.centre + z * distance, -y * distance);
   viewer.controls.update();
-  if (room < 1) camera.setViewOffset(1, 1, (room - 1) / 2, 0, 1, 1);
-  else camera.clearViewOffset();
+  camera.setViewOffset(1, 1, (across - 1) / 2, (1 - upwards) / 2, 1, 1);
   viewer.set_3d_pane_size();
 }
 

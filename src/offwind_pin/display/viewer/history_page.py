@@ -95,7 +95,7 @@ def render_time_history(results: xr.Dataset, start: float = 0.0, duration: float
         loads=_loads_in_words(results, shown),
         factors=_FACTORS,
         factor=displacement_factor(shown),
-        charts=_charts(shown),
+        charts=_charts(results, shown),
         mudline_colour=css(MUDLINE_COLOUR),
         breadth=_CHART[0],
         height=_CHART[1],
@@ -250,7 +250,7 @@ def _loads_in_words(results: xr.Dataset, shown: Frames) -> dict[str, str]:
         "top": f"applied tower-top load, at most {number(top / 1e6, 3)} MN" if top else "",
         "top_colour": css(TOP_COLOUR),
         "top_note": str(results.attrs.get("tower_top_load_holds", "")),
-        "soil": f"soil on the pile, at most {number(soil / 1e6, 3)} MN a node" if soil else "",
+        "soil": f"soil on the pile, at most {number(soil / 1e6, 3)} MN per node" if soil else "",
         "soil_colour": css(SOIL_COLOUR),
     }
 
@@ -259,16 +259,23 @@ def _packed(values: Array, kind: str) -> str:
     return base64.b64encode(np.ascontiguousarray(values, dtype=kind).tobytes()).decode()
 
 
-def curves(shown: Frames) -> list[tuple[str, Array]]:
-    """Names and values (f,) of the curves beside the scene."""
-    channels = [("surface at the axis, m", shown.elevation)] if np.any(shown.elevation) else []
-    channels.append(("tower top along x, m", shown.displacement[:, -1, 0]))
-    if np.any(shown.top_force):
-        component = int(np.argmax(np.abs(shown.top_force).max(axis=0)))
-        name = f"tower-top load along {'xyz'[component]}, MN"
-        channels.append((name, shown.top_force[:, component] / 1e6))
-    channels.append(("mudline moment My, MN m", shown.moment[:, 1] / 1e6))
-    return channels
+def curves(results: xr.Dataset, shown: Frames) -> tuple[Array, list[tuple[str, Array]]]:
+    """Curves beside the scene: times (t,) of all outputs in the part shown, names and values (t,).
+
+    There are fewer frames than outputs, so that frames alone would cut off peaks.
+    """
+    part = results.sel(time=slice(shown.time[0], shown.time[-1]))
+    elevation = np.asarray(part.wave_elevation.values, dtype=float)
+    top = np.asarray(part.displacement.values[:, -1, 0], dtype=float)
+    force = np.asarray(part.tower_top_load.values[:, :3], dtype=float) / 1e6
+    moment = np.asarray(part.mudline_moment.sel(direction="y").values, dtype=float) / 1e6
+    channels = [("surface at the axis, m", elevation)] if np.any(elevation) else []
+    channels.append(("tower top along x, m", top))
+    if np.any(force):
+        component = int(np.argmax(np.abs(force).max(axis=0)))
+        channels.append((f"tower-top load along {'xyz'[component]}, MN", force[:, component]))
+    channels.append(("mudline moment My, MN m", moment))
+    return np.asarray(part.time.values, dtype=float), channels
 
 
 def range_in_words(values: Array) -> str:
@@ -276,14 +283,15 @@ def range_in_words(values: Array) -> str:
     return f"{number(float(values.min()), 3)} to {number(float(values.max()), 3)}"
 
 
-def _charts(shown: Frames) -> list[dict[str, str]]:
+def _charts(results: xr.Dataset, shown: Frames) -> list[dict[str, str]]:
     """Curves of the card: name, range and the points of a polyline, upright in its frame."""
     result = []
-    for name, values in curves(shown):
+    time, channels = curves(results, shown)
+    across = _CHART[0] * (time - time[0]) / (time[-1] - time[0])
+    for name, values in channels:
         low, high = float(values.min()), float(values.max())
         # what hardly changes is drawn as a level line, not as its rounding
         half = max((high - low) / 2, _LEVEL * max(abs(low), abs(high)), 1e-12)
-        across = np.linspace(0, _CHART[0], len(values))
         up = (_CHART[1] / 2 - 2) * (1 - (values - (low + high) / 2) / half) + 2
         points = " ".join(f"{x:.1f},{y:.1f}" for x, y in zip(across, up, strict=True))
         result.append({"name": name, "range": range_in_words(values), "points": points})

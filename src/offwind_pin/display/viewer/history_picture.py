@@ -163,12 +163,13 @@ class HistoryPicture(Picture):
 
     def _write(self, results: xr.Dataset) -> None:
         """Words, colour bar and curves."""
-        attrs, time = results.attrs, self.shown.time
+        attrs = results.attrs
         waves = "" if self._dry else str(attrs.get("waves", ""))
         self.head(results, str(attrs.get("case", "time history")), waves)
         self._now = self.text(0.86, "", fontsize=9.5)
         self._cursors = []
-        for i, (name, values) in enumerate(curves(self.shown)):
+        time, channels = curves(results, self.shown)
+        for i, (name, values) in enumerate(channels):
             axes = self.strip(0.70 - 0.135 * i, 0.085, name, range_in_words(values))
             axes.plot(time, values, color=BLUE, linewidth=1)
             axes.set_xlim(time[0], time[-1])

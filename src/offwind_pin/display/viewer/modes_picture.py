@@ -26,6 +26,7 @@ from offwind_pin.display.viewer.scene import (
     rgb,
 )
 from offwind_pin.display.viewer.springs import spring_symbol
+from offwind_pin.display.wording import number
 from offwind_pin.structure.meshes import FACETS, Mesh, circle, loft
 
 _ALONG = np.array([1.0, 0.0, 0.0])
@@ -100,27 +101,23 @@ class ModesPicture(Picture):
         self.head(results, "Natural modes", water_in_words(results) or "dry")
         for i, (mode, place) in enumerate(zip(self.chosen, self._place, strict=True)):
             label = shown.label[mode]
-            numbers = f"{shown.frequency_hz[mode]:.4g} Hz, {100 * shown.damping_ratio[mode]:.3g} %"
+            numbers = f"{number(shown.frequency_hz[mode])} Hz, "
+            numbers += f"{number(100 * shown.damping_ratio[mode], 3)} %"
             y = 0.80 - 0.115 * i
             self.text(y, label, fontsize=13, weight="bold")
             self.text(y - 0.004, numbers, indent=0.06, fontsize=11)
             words = f"{mode_name(label)}, peak drawn as {shown.peak_in_words(mode)}"
-            self.text(y - 0.042, words, fontsize=9, fit=52, color=FAINT)
+            self.text(y - 0.042, words, fontsize=9, fit=46, color=FAINT)
             seen = self.camera.project(place + np.array([0.0, 0.0, low]))
             self.scene.text(
                 seen[0], seen[1], f"{label}\n{numbers}", ha="center", va="top",
                 fontsize=10, color=TEXT, linespacing=1.4,
             )  # fmt: skip
         self.colour_bar(0.20, "displacement (torsion: rotation) over its peak")
-        note = "Mode-shape amplitude is arbitrary."
         springs = springs_in_words(results, shown.size)
-        self.text(
-            0.13,
-            note + (f" Grey symbols: {springs}." if springs else ""),
-            fontsize=8,
-            fit=58,
-            color=FAINT,
-        )
+        self.text(0.13, "Mode-shape amplitude is arbitrary.", fontsize=8, color=FAINT)
+        if springs:
+            self.text(0.105, f"Grey symbols: {springs}", fontsize=8, color=FAINT)
 
 
 def _pose(turn: Array, place: Array) -> Array:

@@ -6,23 +6,36 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from offwind_pin.base.kernels import ExchangeableKernel
 from offwind_pin.dynamics.base_excitation import GROUND_NUMBERS, BaseExcitation
 from offwind_pin.dynamics.compiled.coupled import coupled_dampers
+from offwind_pin.dynamics.compiled.forward_kinematics import move_bodies, move_points
 from offwind_pin.dynamics.compiled.ground import move_ground
 from offwind_pin.dynamics.compiled.model import NO_JOINT, Model, TunedMasses
-from offwind_pin.dynamics.compiled.newton_matrix import assemble
+from offwind_pin.dynamics.compiled.newton_matrix import (
+    body_matrices,
+    eliminate,
+    load_matrices,
+    load_tangents,
+)
+from offwind_pin.dynamics.compiled.residual import (
+    balance,
+    collect_wrenches,
+    evaluate_loads,
+    restrain,
+)
 from offwind_pin.dynamics.compiled.tuned_mass import (
     tmd_after,
     tmd_before,
     tmd_between,
     tmd_eliminate,
     tmd_energies,
-    tmd_multiply,
     tmd_residual,
 )
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.point_load import KernelLoad, no_tangents, nothing_kept
 from offwind_pin.loads.root_restraint import KernelRestraint, nothing_kept_by_root
+from offwind_pin.structure.chain import NDArrayInt
 
 _NO_KERNEL = 0
 
@@ -39,7 +52,19 @@ def make_model(
     carrier = chain.body_at(height)
     origin = chain.origin
     widths = [len(load.mean_inputs()) for load in loads]
-    constants = [np.asarray(load.constants, dtype=float).ravel() for load in loads]
+    constants = [np.asarray(load.constants, dtype=float) for load in loads]
+    damped = bool(chain.tuned_masses)
+    evaluation = [
+        *([move_ground] if ground.levels else []),
+        move_bodies,
+        move_points,
+        evaluate_loads,
+        collect_wrenches,
+        *([tmd_residual] if damped else []),
+        balance,
+        *([restrain] if chain.roots else []),
+    ]
+    elimination = [*([tmd_eliminate] if damped else []), eliminate]
     sizes = [*(load.memory_size for load in loads), root.memory_size]
     return Model(
         base=chain.base,
@@ -71,27 +96,23 @@ def make_model(
         point_height=height,
         ground_level=ground.level,
         ground_share=ground.share,
-        move_ground=move_ground.address if ground.levels else _NO_KERNEL,
         first_point=_beginnings([len(load.height) for load in loads]),
         # the time comes first, then the ground
         first_input=1 + GROUND_NUMBERS * ground.levels + _beginnings(widths),
-        first_constant=_beginnings([len(numbers) for numbers in constants]),
-        constants=np.concatenate([np.zeros(0), *constants]),
+        first_constant=_beginnings([table.size for table in constants]),
+        columns=np.array([table.shape[1] for table in constants], dtype=np.intp),
+        constants=np.concatenate([np.zeros(0), *(table.ravel() for table in constants)]),
         first_memory=_beginnings(sizes),
-        forces=_addresses([load.force_kernel.address for load in loads]),
-        tangents=_addresses(
-            [
-                _NO_KERNEL if load.tangent_kernel is no_tangents else load.tangent_kernel.address
-                for load in loads
-            ]
+        forces=addresses([load.force_kernel for load in loads]),
+        tangents=addresses(
+            [None if load.tangent_kernel is no_tangents else load.tangent_kernel for load in loads]
         ),
-        commits=_addresses(
-            [
-                _NO_KERNEL if load.commit_kernel is nothing_kept else load.commit_kernel.address
-                for load in loads
-            ]
+        commits=addresses(
+            [None if load.commit_kernel is nothing_kept else load.commit_kernel for load in loads]
         ),
-        assemble=assemble.address,
+        evaluation=addresses(evaluation),
+        assembly=addresses([body_matrices, load_tangents, load_matrices]),
+        elimination=addresses(elimination),
     )
 
 
@@ -109,15 +130,7 @@ def _tuned_masses(system: System) -> TunedMasses:
     ]
     body = np.array([mass.body for mass in sliding], dtype=np.intp)
     height = np.array([mass.height for mass in sliding], dtype=float)
-    kernels = [
-        tmd_residual,
-        tmd_eliminate,
-        tmd_before,
-        tmd_after,
-        tmd_multiply,
-        tmd_between,
-        tmd_energies,
-    ]
+    kernels = [tmd_before, tmd_after, tmd_between, tmd_energies]
     return TunedMasses(
         body,
         np.array(joints, dtype=np.intp).reshape(-1, 2),
@@ -128,9 +141,11 @@ def _tuned_masses(system: System) -> TunedMasses:
     )
 
 
-def _beginnings(sizes: Sequence[int]) -> np.ndarray[tuple[int, ...], np.dtype[np.intp]]:
+def _beginnings(sizes: Sequence[int]) -> NDArrayInt:
     return np.cumsum([0, *sizes], dtype=np.intp)
 
 
-def _addresses(kernels: Sequence[int]) -> np.ndarray[tuple[int, ...], np.dtype[np.intp]]:
-    return np.array(kernels, dtype=np.intp)
+def addresses(kernels: Sequence[ExchangeableKernel | None]) -> NDArrayInt:
+    """(n,) addresses of kernels; 0 for none."""
+    found = [_NO_KERNEL if kernel is None else kernel.address for kernel in kernels]
+    return np.array(found, dtype=np.intp)

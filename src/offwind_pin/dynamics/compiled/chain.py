@@ -18,8 +18,9 @@ from offwind_pin.base.kernels import announce
 from offwind_pin.base.records import Count, Record
 from offwind_pin.dynamics.acting_loads import all_loads, base_excitation_of, smooth_ramp
 from offwind_pin.dynamics.base_excitation import GROUND_NUMBERS
-from offwind_pin.dynamics.compiled.assembly import make_model
+from offwind_pin.dynamics.compiled.assembly import addresses, make_model
 from offwind_pin.dynamics.compiled.coupled import factorise_coupled, solve_coupled
+from offwind_pin.dynamics.compiled.ground import ground_power
 from offwind_pin.dynamics.compiled.model import Data, Factorisation, Model, State
 from offwind_pin.dynamics.compiled.newton_matrix import (
     factorise,
@@ -38,15 +39,23 @@ from offwind_pin.dynamics.compiled.recorder import (
     make_segments,
     make_soil_nodes,
 )
-from offwind_pin.dynamics.compiled.recording import at_cuts, note_kernel, record_inertial, take_note
-from offwind_pin.dynamics.compiled.residual import commit, evaluate, evaluate_kernel
+from offwind_pin.dynamics.compiled.recording import (
+    add_energies,
+    at_cuts,
+    imbalances,
+    note_kernel,
+    record_inertial,
+    record_motion,
+    store_energies,
+    take_note,
+)
+from offwind_pin.dynamics.compiled.residual import commit, evaluate, state_kernel
 from offwind_pin.dynamics.resting_axis import RestingAxis
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.earthquake.ground_motion import GroundMotion
-from offwind_pin.loads.point_load import PointLoad
+from offwind_pin.loads.point_load import PointLoad, PointMotion
 from offwind_pin.loads.root_restraint import FREE
 from offwind_pin.solvers import generalized_alpha
-from offwind_pin.solvers.generalized_alpha import residual as evaluated
 from offwind_pin.structure.chain import NDArrayInt
 
 if TYPE_CHECKING:
@@ -166,6 +175,37 @@ class CompiledChain:
         with self.running():
             evaluate(self.model, self.data, state, time_inputs)
 
+    def points_at(self, height: Array) -> PointMotion:
+        """Motion of points of the axis at heights (m,) in m, in the state last evaluated."""
+        chain, data = self.system.chain, self.data
+        k = chain.body_at(height)
+        rotation, spin = data.rotation[k], data.angular_velocity[k]
+        arm = (height - chain.origin[k])[:, None] * rotation[:, :, 2]
+        position = data.position[k] + arm
+        around = np.cross(spin, arm)
+        inward = np.cross(data.angular_acceleration[k], arm) + np.cross(spin, around)
+        skew = (rotation - rotation.transpose(0, 2, 1)) / 2
+        return PointMotion(
+            position=position,
+            displacement=position - np.outer(height, [0.0, 0.0, 1.0]),
+            velocity=data.velocity[k] + around,
+            axis=rotation[:, :, 2].copy(),
+            acceleration=data.acceleration[k] + inward,
+            turn=np.column_stack([skew[:, 2, 1], skew[:, 0, 2], skew[:, 1, 0]]),
+            spin=spin,
+        )
+
+    def top_jacobian(self) -> Array:
+        """(6, nv) velocity and spin of the chain's top per unit joint velocity, in that state.
+
+        Its transpose turns a force and moment there, fixed in the world, into generalised forces.
+        """
+        linear, angular = np.split(self.data.joint[: self.system.chain.axis_joints], 2, axis=1)
+        top = self.points_at(np.array([self.system.chain.top])).position[0]
+        jacobian = np.zeros((6, self.system.nv))
+        jacobian[:, : len(linear)] = np.hstack([linear + np.cross(angular, top), angular]).T
+        return jacobian
+
     @property
     def memory(self) -> Array:
         """(m,) what soil and foundation keep of their past; a copy."""
@@ -241,11 +281,17 @@ class CompiledChain:
         self, sections: tuple[Cuts, Segments], every: int = 1, records: int = 1
     ) -> Recorder:
         """An empty recorder of every n-th step, for a number of records."""
+        each_step = [*([] if self.ground_motion is None else [ground_power]), add_energies]
+        each_record = [record_motion, *([imbalances] if len(sections[1].cut) else [])]
+        each_record.append(store_energies)
+        if self.system.structural_loads:
+            each_record.append(record_inertial)
         kernels = Kernels(
             energies=self._energies,
             commit=commit.address if self._committing else 0,
             at_cuts=at_cuts.address,
-            inertial=record_inertial.address if self.system.structural_loads else 0,
+            each_step=addresses(each_step),
+            each_record=addresses(each_record),
         )
         height = sections[0].height
         inertial = inertial_points(self.system, self.model, self.loads, height)
@@ -321,7 +367,7 @@ class CompiledChain:
                 load.raise_failure()
 
 
-_evaluate, _factorise = evaluate_kernel.call, factorise_kernel.call
+_evaluate, _factorise = state_kernel.call, factorise_kernel.call
 _solve, _take_note = solve_kernel.call, note_kernel.call
 
 
@@ -347,7 +393,7 @@ def _overload_factorise(
     system: Any, row: Any, q: Any, v: Any, a: Any, dv_dq: Any, da_dq: Any
 ) -> Any:
     def of_run(system: Any, row: Any, q: Any, v: Any, a: Any, dv_dq: Any, da_dq: Any) -> Any:
-        evaluated(system, row, q, v, a)
+        # the residual of this state was evaluated last, and its data with it
         arguments = (system.model, system.data, system.state, system.factors, row, dv_dq, da_dq)
         _factorise(system.factorise, arguments)
 

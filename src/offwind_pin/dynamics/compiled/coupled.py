@@ -18,7 +18,7 @@ from offwind_pin.dynamics.compiled.model import CoupledDampers, Data, Factorisat
 from offwind_pin.dynamics.compiled.newton_matrix import (
     factorise,
     factorise_kernel,
-    invert_by_pivots,
+    invert,
     solve,
     solve_kernel,
 )
@@ -74,13 +74,14 @@ def factorise_coupled(
         _solve(coupled.solve, (model, factors, rows[i]))
         for m in range(nv):
             columns[i, m] = factors.solution[m]
-    block = np.zeros((count, count))
+    block = factors.coupled_block
     for i in range(count):
         for j in range(count):
+            block[i, j] = 0.0
             for m in range(nv):
                 block[i, j] += dv_dq * coupled.rate[i] * rows[i, m] * columns[j, m]
         block[i, i] += 1.0
-    invert_by_pivots(block, count, inverse)
+    invert(block, count, inverse)
     for i in range(count):
         for j in range(count):
             inverse[i, j] *= dv_dq * coupled.rate[j]

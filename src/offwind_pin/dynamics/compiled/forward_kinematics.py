@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import math
 
-from offwind_pin.base.kernels import inlined
-from offwind_pin.dynamics.compiled.model import Data, Model, State
+from offwind_pin.base.definition import Array
+from offwind_pin.dynamics.compiled.model import Data, Model, State, evaluation_kernel
 from offwind_pin.dynamics.compiled.vectors import (
     add,
     axis_of,
@@ -23,8 +23,8 @@ from offwind_pin.dynamics.compiled.vectors import (
 )
 
 
-@inlined
-def move_bodies(model: Model, data: Data, state: State) -> None:
+@evaluation_kernel
+def move_bodies(model: Model, data: Data, state: State, time_inputs: Array) -> None:
     """Set position, orientation, velocity and acceleration of every body, and the joints' columns.
 
     The base moves with the ground.
@@ -88,8 +88,8 @@ def move_bodies(model: Model, data: Data, state: State) -> None:
             rotation[k, j, 0], rotation[k, j, 1], rotation[k, j, 2] = x[j], y[j], z[j]
 
 
-@inlined
-def move_points(model: Model, data: Data) -> None:
+@evaluation_kernel
+def move_points(model: Model, data: Data, state: State, time_inputs: Array) -> None:
     """Set the motion of the loaded points.
 
     Where they meet the ground, displacement and velocity are those relative to it.

@@ -8,11 +8,13 @@ first.
 
 from __future__ import annotations
 
-from typing import Self
+from typing import Any, Self
 
 import numpy as np
+from numba import types
 
 from offwind_pin.base.definition import Array
+from offwind_pin.base.kernels import exchangeable
 from offwind_pin.base.records import (
     Count,
     Counts,
@@ -41,7 +43,7 @@ class TunedMasses(Record):
     mass : (D,) in kg
     offset : (D,) along the carrier in m
     height : (D,) undeformed, in m
-    residual, eliminate, before, after, multiply, between, energies : addresses of the kernels in
+    before, after, between, energies : addresses of the kernels in
         :mod:`offwind_pin.dynamics.compiled.tuned_mass`; 0 without dampers
     """
 
@@ -50,11 +52,8 @@ class TunedMasses(Record):
     mass: Numbers
     offset: Numbers
     height: Numbers
-    residual: Count
-    eliminate: Count
     before: Count
     after: Count
-    multiply: Count
     between: Count
     energies: Count
 
@@ -102,14 +101,15 @@ class Model(Record):
     point_offset, point_height : (P,) along it, and undeformed, in m
     ground_level, ground_share : (P + 1,) level of the ground at or below each point and, last, the
         base, -1 where none is met; share of the next level
-    move_ground : address of the ground's kernel; 0 without an earthquake
     first_point, first_input, first_constant : (L + 1,) where each load's points, time inputs and
         constants begin
-    constants : of all loads, one after another; each has a row for each of its points
+    columns : (L,) of each load's constants, which have a row for each of its points
+    constants : of all loads, one after another
     first_memory : (L + 2,) where the memory of each load, and of the root, begins
     forces, tangents, commits : (L,) addresses of the loads' kernels; 0 for a load without tangents,
         or without memory
-    assemble : address of the kernel that sets the bodies' matrices
+    evaluation : addresses of the kernels that evaluate a state, in their order
+    assembly, elimination : of those that set the bodies' matrices, and factorise them
     """
 
     base: Number
@@ -134,16 +134,18 @@ class Model(Record):
     point_height: Numbers
     ground_level: Counts
     ground_share: Numbers
-    move_ground: Count
     first_point: Counts
     first_input: Counts
     first_constant: Counts
+    columns: Counts
     constants: Numbers
     first_memory: Counts
     forces: Counts
     tangents: Counts
     commits: Counts
-    assemble: Count
+    evaluation: Counts
+    assembly: Counts
+    elimination: Counts
 
 
 class State(Record):
@@ -279,7 +281,7 @@ class Factorisation(Record):
     tmd_passed : (D, 6) wrench that each damper passes down, then the twist of its carrier
     coupled_row, coupled_column : (k, nv) of the coupled dampers: their generalised forces, and what
         these move
-    coupled_inverse, coupled_force : (k, k) and (k,)
+    coupled_block, coupled_inverse, coupled_force : (k, k), (k, k) and (k,)
     rhs : (6,) right sides of a node, on the way down
     solution : (nv,)
     """
@@ -294,6 +296,7 @@ class Factorisation(Record):
     tmd_passed: Numbers2
     coupled_row: Numbers2
     coupled_column: Numbers2
+    coupled_block: Numbers2
     coupled_inverse: Numbers2
     coupled_force: Numbers
     rhs: Numbers
@@ -315,8 +318,22 @@ class Factorisation(Record):
             tmd_passed=np.zeros((dampers, 6)),
             coupled_row=np.zeros((coupled, nv)),
             coupled_column=np.zeros((coupled, nv)),
+            coupled_block=np.zeros((coupled, coupled)),
             coupled_inverse=np.zeros((coupled, coupled)),
             coupled_force=np.zeros(coupled),
             rhs=np.zeros(6),
             solution=np.zeros(nv),
         )
+
+
+MODEL, DATA, STATE = Model.numba_type(), Data.numba_type(), State.numba_type()
+FACTORISATION = Factorisation.numba_type()
+ROW: Any = types.float64[::1]
+
+evaluation_kernel = exchangeable(types.void(MODEL, DATA, STATE, ROW), python=False)
+"""Decorator for ``kernel(model, data, state, time_inputs)``: a part of evaluating a state."""
+matrix_kernel = exchangeable(
+    types.void(MODEL, DATA, STATE, FACTORISATION, ROW, types.float64, types.float64), python=False
+)
+"""Decorator for ``kernel(model, data, state, factors, time_inputs, dv_dq, da_dq)``: a part of the
+factorisation."""

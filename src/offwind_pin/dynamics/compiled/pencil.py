@@ -8,7 +8,7 @@ import numpy as np
 
 from offwind_pin.base.definition import Array
 from offwind_pin.dynamics.compiled.chain import CompiledChain
-from offwind_pin.dynamics.compiled.matrix_products import multiply
+from offwind_pin.dynamics.compiled.matrix_products import ChainGeometry, MatrixProducts
 from offwind_pin.dynamics.compiled.model import Factorisation
 from offwind_pin.dynamics.compiled.newton_matrix import assemble
 from offwind_pin.loads.point_load import POSITION, dissipated_power
@@ -30,27 +30,24 @@ class CompiledPencil:
         self._time_inputs = chain.mean_inputs()
         self._q, self._rest = q, np.zeros_like(q)
         chain.residual(self._time_inputs, q, self._rest, self._rest)
-        self._factors: dict[tuple[float, float], Factorisation] = {}
         self._shift: float | None = None
 
     def stiffness_times(self, vectors: Array) -> Array:
         """(nv, n) of the same shape."""
-        return self._times(vectors, 0.0, 0.0)
+        return self._stiffness.times(vectors)
 
     def symmetric_stiffness_times(self, vectors: Array) -> Array:
         """(nv, n) of the same shape, by the symmetric part of the stiffness."""
-        straight = self._times(vectors, 0.0, 0.0)
-        return (straight + self._times(vectors, 0.0, 0.0, transposed=1)) / 2
+        return self._symmetric_stiffness.times(vectors)
 
     def mass_times(self, vectors: Array) -> Array:
         """(nv, n) of the same shape."""
-        return (self._times(vectors, 0.0, _LARGE) - self._times(vectors, 0.0, 0.0)) / _LARGE
+        return self._mass.times(vectors)
 
     def damping_times(self, vectors: Array) -> Array:
         """(nv, n) of the same shape."""
-        of_points = self._times(vectors, _LARGE, 0.0) - self._times(vectors, 0.0, 0.0)
         rows, rate = self._coupling
-        return of_points / _LARGE + rows.T @ (rate * (rows @ vectors).T).T
+        return self._damping.times(vectors) + rows.T @ (rate * (rows @ vectors).T).T
 
     def matrices(self) -> tuple[Array, Array, Array]:
         """Mass, damping and stiffness, (nv, nv) each."""
@@ -81,10 +78,8 @@ class CompiledPencil:
         needs.
         """
         chain, data = self._chain.system.chain, self._chain.data
-        heavy, still = self._assembled(0.0, _LARGE), self._assembled(0.0, 0.0)
-        inertia = (heavy.articulated - still.articulated) / _LARGE
         twist = self._twists(vector)
-        bodies = np.einsum("kij,kj->ki", inertia, twist)
+        bodies = np.einsum("kij,kj->ki", self._mass.bodies, twist)
         orientation, top = data.rotation[-1], twist[-1]
         x, y, z = chain.rna.center_of_mass
         arm = np.array([x, y, z + chain.top - chain.origin[-1]])
@@ -156,19 +151,57 @@ class CompiledPencil:
         self._chain.factorise(*arguments)
         self._shift = shift
 
-    def _times(self, vectors: Array, dv_dq: float, da_dq: float, *, transposed: int = 0) -> Array:
-        chain, factors = self._chain, self._assembled(dv_dq, da_dq)
-        rows = np.ascontiguousarray(np.atleast_2d(vectors.T), dtype=float)
-        products = np.empty_like(rows)
-        multiply(chain.model, chain.data, factors, dv_dq, da_dq, transposed, rows, products)
-        return products.T.reshape(vectors.shape)
+    @cached_property
+    def _geometry(self) -> ChainGeometry:
+        return ChainGeometry(self._chain.model, self._chain.data)
+
+    @cached_property
+    def _stiffness(self) -> MatrixProducts:
+        model, data = self._chain.model, self._chain.data
+        return MatrixProducts(
+            self._geometry,
+            self._bodies(0.0, 0.0),
+            np.array([damper.stiffness for damper in self._geometry.dampers]).reshape(-1, 6, 6),
+            model.stiffness,
+            data.root_stiffness[: model.roots, : model.roots].copy(),
+            turning=1.0,
+        )
+
+    @cached_property
+    def _symmetric_stiffness(self) -> MatrixProducts:
+        return self._stiffness.symmetric()
+
+    @cached_property
+    def _mass(self) -> MatrixProducts:
+        model = self._chain.model
+        return MatrixProducts(
+            self._geometry,
+            (self._bodies(0.0, _LARGE) - self._stiffness.bodies) / _LARGE,
+            np.array([damper.mass for damper in self._geometry.dampers]).reshape(-1, 6, 6),
+            np.zeros(len(self._q)),
+            np.zeros((model.roots, model.roots)),
+        )
+
+    @cached_property
+    def _damping(self) -> MatrixProducts:
+        model, data = self._chain.model, self._chain.data
+        return MatrixProducts(
+            self._geometry,
+            (self._bodies(_LARGE, 0.0) - self._stiffness.bodies) / _LARGE,
+            np.zeros((len(self._geometry.dampers), 6, 6)),
+            model.damping,
+            data.root_damping[: model.roots, : model.roots].copy(),
+        )
+
+    def _bodies(self, dv_dq: float, da_dq: float) -> Array:
+        """(N + 1, 6, 6) matrices of the bodies in da_dq M + dv_dq D + K."""
+        return self._assembled(dv_dq, da_dq).articulated
 
     def _assembled(self, dv_dq: float, da_dq: float) -> Factorisation:
-        """The bodies' matrices, made once for each pair of factors."""
-        chain, key = self._chain, (dv_dq, da_dq)
-        if key not in self._factors:
-            self._factors[key] = Factorisation.of(chain.model)
-            arguments = (chain.model, chain.data, chain.state, self._factors[key])
-            with chain.running():
-                assemble(*arguments, self._time_inputs, dv_dq, da_dq)
-        return self._factors[key]
+        """That matrix, nothing eliminated."""
+        chain = self._chain
+        factors = Factorisation.of(chain.model)
+        arguments = (chain.model, chain.data, chain.state, factors, self._time_inputs)
+        with chain.running():
+            assemble(*arguments, dv_dq, da_dq)
+        return factors

@@ -105,11 +105,11 @@ class Recorder(Record):
     cuts, segments, soil : what is recorded
     every : steps between records
     energies : (L,) addresses of the loads' kernels; 0 for a load that stores none
-    commit, at_cuts, inertial : addresses of the kernels that end a step, 0 without memory, that
-        record motions and section loads, and what of these is structural damping against the
-        inertial frame, 0 without any
-    first_inertial : (m,) first of the points, in order of height, at which such damping acts above
-        each cut
+    commit, at_cuts : addresses of the kernels that end a step, 0 without memory, and that give
+        motions and section loads
+    each_step, each_record : addresses of the kernels that sum energies, and that write a record
+    first_inertial : (m,) first of the points, in order of height, at which structural damping acts
+        against the inertial frame above each cut
     end_inertial : the point after the last of them
     tally : (2,) steps taken, records made
     clock : (1,) time of the last step in s
@@ -136,7 +136,8 @@ class Recorder(Record):
     energies: Counts
     commit: Count
     at_cuts: Count
-    inertial: Count
+    each_step: Counts
+    each_record: Counts
     first_inertial: Counts
     end_inertial: Count
     tally: Counts
@@ -256,7 +257,8 @@ class Kernels(NamedTuple):
     energies: NDArrayInt
     commit: int
     at_cuts: int
-    inertial: int
+    each_step: NDArrayInt
+    each_record: NDArrayInt
 
 
 def inertial_points(
@@ -299,7 +301,8 @@ def make_recorder(
         energies=kernels.energies,
         commit=kernels.commit,
         at_cuts=kernels.at_cuts,
-        inertial=kernels.inertial,
+        each_step=kernels.each_step,
+        each_record=kernels.each_record,
         first_inertial=inertial[0],
         end_inertial=inertial[1],
         tally=np.zeros(2, dtype=np.intp),
@@ -311,7 +314,7 @@ def make_recorder(
         displacement=np.zeros((records, m, 3)),
         acceleration=np.zeros((records, m, 3)),
         section_load=np.zeros((records, m, 6)),
-        inertial_load=np.zeros((records, m if kernels.inertial else 0, 2)),
+        inertial_load=np.zeros((records, m if inertial[1] else 0, 2)),
         imbalance=np.zeros((records, len(segments.cut), 6)),
         soil_force=np.zeros((records, len(soil.height), 3)),
         stroke=np.zeros((records, len(model.tmd.body), 2)),

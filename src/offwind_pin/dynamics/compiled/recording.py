@@ -8,27 +8,31 @@ from typing import Any
 from numba import types
 
 from offwind_pin.base.definition import Array
-from offwind_pin.base.kernels import exchangeable, inlined, inner
-from offwind_pin.base.records import part
-from offwind_pin.dynamics.compiled.model import NO_JOINT, Data, Model, State, Vector
+from offwind_pin.base.kernels import exchangeable, inner
+from offwind_pin.base.records import matrix, part
+from offwind_pin.dynamics.compiled.model import (
+    DATA,
+    MODEL,
+    NO_JOINT,
+    ROW,
+    STATE,
+    Data,
+    Model,
+    State,
+    Vector,
+)
 from offwind_pin.dynamics.compiled.recorder import (
-    GROUND,
     JOINT_DAMPERS,
     ROOT,
     Cuts,
     Recorder,
 )
 from offwind_pin.dynamics.compiled.residual import (
-    DATA,
-    MODEL,
-    ROW,
-    STATE,
-    constants_of,
     inertial_wrench,
     rna_arm,
     rna_inertia_times,
     rna_wrench,
-    step_kernel,
+    state_kernel,
 )
 from offwind_pin.dynamics.compiled.vectors import (
     add,
@@ -53,14 +57,15 @@ cuts_kernel = exchangeable(types.void(MODEL, DATA, CUTS, _MATRIX, _MATRIX, _MATR
 note_kernel = exchangeable(
     types.void(MODEL, DATA, STATE, RECORDER, ROW, types.intp, types.float64), nogil=True
 )
-inertial_kernel = exchangeable(types.void(MODEL, DATA, RECORDER, types.intp))
-tmd_between_kernel = exchangeable(_VECTORS(MODEL, DATA, types.float64, types.float64))
+record_kernel = exchangeable(types.void(MODEL, DATA, STATE, RECORDER), python=False)
+"""Decorator for ``kernel(model, data, state, recorder)``: a part of a step's or record's notes."""
+tmd_between_kernel = exchangeable(_VECTORS(MODEL, DATA, types.float64, types.float64), python=False)
 """Decorator for ``kernel(model, data, low, high)``: what dampers between two heights need."""
-tmd_energies_kernel = exchangeable(_NUMBERS(MODEL, DATA))
+tmd_energies_kernel = exchangeable(_NUMBERS(MODEL, DATA), python=False)
 """Decorator for ``kernel(model, data)``: their kinetic and gravitational energies."""
 
-_energy, _commit, _at_cuts = energy_kernel.call, step_kernel.call, cuts_kernel.call
-_inertial = inertial_kernel.call
+_energy, _commit, _at_cuts = energy_kernel.call, state_kernel.call, cuts_kernel.call
+_note = record_kernel.call
 _tmd_between, _tmd_energies = tmd_between_kernel.call, tmd_energies_kernel.call
 
 
@@ -80,22 +85,23 @@ def take_note(
     """
     if recorder.commit != 0:
         _commit(recorder.commit, (model, data, state, time_inputs))
-    time = time_inputs[0]
-    add_energies(model, data, state, recorder, time - recorder.clock[0])
-    recorder.clock[0] = time
+    for n in range(len(recorder.each_step)):
+        _note(recorder.each_step[n], (model, data, state, recorder))
+    recorder.clock[0] = state.clock[0]
     recorder.tally[0] += 1
     if recorder.tally[0] % recorder.every == 0:
-        record(model, data, state, recorder, iterations, size)
+        i = recorder.tally[1]
+        recorder.time[i], recorder.iterations[i] = recorder.clock[0], iterations
+        recorder.residual[i] = size
+        for n in range(len(recorder.each_record)):
+            _note(recorder.each_record[n], (model, data, state, recorder))
+        recorder.tally[1] += 1
 
 
-@inlined
-def record(
-    model: Model, data: Data, state: State, recorder: Recorder, iterations: int, size: float
-) -> None:
-    """Write a record of an evaluated state."""
+@record_kernel
+def record_motion(model: Model, data: Data, state: State, recorder: Recorder) -> None:
+    """Record motions, section loads, forces of the soil, strokes and summed energies."""
     i, soil, tmd_joint = recorder.tally[1], recorder.soil, model.tmd.joint
-    recorder.time[i], recorder.iterations[i] = recorder.clock[0], iterations
-    recorder.residual[i] = size
     _at_cuts(
         recorder.at_cuts,
         (
@@ -107,10 +113,6 @@ def record(
             recorder.section_load[i],
         ),
     )
-    if recorder.inertial != 0:
-        _inertial(recorder.inertial, (model, data, recorder, i))
-    imbalances(model, data, recorder, i)
-    store_energies(model, data, state, recorder, i)
     for n in range(len(soil.point)):
         for j in range(3):
             recorder.soil_force[i, soil.node[n], j] += data.force[soil.point[n], j]
@@ -122,7 +124,6 @@ def record(
     for j in range(recorder.energy.shape[1]):
         recorder.dissipated[i, j] = recorder.energy[0, j]
         recorder.worked[i, j] = recorder.energy[1, j]
-    recorder.tally[1] += 1
 
 
 @cuts_kernel
@@ -175,9 +176,10 @@ def at_cuts(
             section_load[m, j], section_load[m, 3 + j] = force[j], moment[j]
 
 
-@inertial_kernel
-def record_inertial(model: Model, data: Data, recorder: Recorder, i: int) -> None:
-    """Set what inertial damping contributes to the section loads of a record."""
+@record_kernel
+def record_inertial(model: Model, data: Data, state: State, recorder: Recorder) -> None:
+    """Record what inertial damping contributes to the section loads."""
+    i = recorder.tally[1]
     height, first, moved = recorder.cuts.height, recorder.first_inertial, recorder.displacement
     force = moment = (0.0, 0.0, 0.0)
     point = recorder.end_inertial
@@ -207,15 +209,15 @@ def point_wrench(data: Data, i: int) -> tuple[Vector, Vector]:
     return row_of(data.force, i), (data.force[i, 3], data.force[i, 4], data.force[i, 5])
 
 
-@inlined
-def imbalances(model: Model, data: Data, recorder: Recorder, i: int) -> None:
+@record_kernel
+def imbalances(model: Model, data: Data, state: State, recorder: Recorder) -> None:
     """Set (g, 6) what section loads, applied loads and inertia of each segment leave over.
 
     Section loads are summed from the top down; here each segment is summed by itself. Moments are
     about its lower cut.
     """
-    segments, cuts, result = recorder.segments, recorder.cuts, recorder.imbalance
-    load, moved = recorder.section_load[i], recorder.displacement[i]
+    i, segments, cuts = recorder.tally[1], recorder.segments, recorder.cuts
+    load, moved, result = recorder.section_load[i], recorder.displacement[i], recorder.imbalance[i]
     for n in range(len(segments.cut)):
         low, high = segments.cut[n, 0], segments.cut[n, 1]
         about = add(row_of(moved, low), (0.0, 0.0, cuts.height[low]))
@@ -238,14 +240,15 @@ def imbalances(model: Model, data: Data, recorder: Recorder, i: int) -> None:
             force = add(force, need)
             moment = add(moment, subtract(turn, cross(about, need)))
         for j in range(3):
-            result[i, n, j] = force[j]
-            result[i, n, 3 + j] = moment[j] + load[low, 3 + j] - load[high, 3 + j]
+            result[n, j] = force[j]
+            result[n, 3 + j] = moment[j] + load[low, 3 + j] - load[high, 3 + j]
 
 
-@inlined
-def store_energies(model: Model, data: Data, state: State, recorder: Recorder, i: int) -> None:
+@record_kernel
+def store_energies(model: Model, data: Data, state: State, recorder: Recorder) -> None:
     """Set kinetic, gravitational (zero undeformed), elastic, the root's and the loads' energy."""
-    body, length, position, result = model.body, model.length, data.position, recorder.stored
+    body, length, position = model.body, model.length, data.position
+    result = recorder.stored[recorder.tally[1]]
     last = len(length)
     kinetic = gravitational = elastic = 0.0
     height = model.base
@@ -273,42 +276,36 @@ def store_energies(model: Model, data: Data, state: State, recorder: Recorder, i
         gravitational += lifted
     for n in range(len(state.q)):
         elastic += model.stiffness[n] * state.q[n] * state.q[n] / 2
-    result[i, 0], result[i, 1], result[i, 2] = kinetic, gravitational, elastic
-    result[i, 3] = data.root_power[1]
+    result[0], result[1], result[2] = kinetic, gravitational, elastic
+    result[3] = data.root_power[1]
     for n in range(len(recorder.energies)):
         if recorder.energies[n] != 0:
-            result[i, 4 + n] = _energy(
+            first, last = model.first_point[n], model.first_point[n + 1]
+            result[4 + n] = _energy(
                 recorder.energies[n],
                 (
-                    part(data.motion, model.first_point[n], model.first_point[n + 1]),
-                    constants_of(model, n),
+                    part(data.motion, first, last),
+                    matrix(
+                        model.constants, model.first_constant[n], last - first, model.columns[n]
+                    ),
                     part(state.memory, model.first_memory[n], model.first_memory[n + 1]),
                 ),
             )
 
 
-@inlined
-def add_energies(model: Model, data: Data, state: State, recorder: Recorder, step: float) -> None:
+@record_kernel
+def add_energies(model: Model, data: Data, state: State, recorder: Recorder) -> None:
     """Integrate the powers dissipated and worked over a step, by the trapezoidal rule.
 
     What was dissipated by the end of the step as such is added.
     """
     v, force, motion, now = state.v, data.force, data.motion, recorder.now
     energy, power, heat = recorder.energy, recorder.power, data.dissipated_energy
-    loads = len(model.forces)
+    loads, step = len(model.forces), state.clock[0] - recorder.clock[0]
     dampers = 0.0
     for i in range(len(v)):
         dampers += model.damping[i] * v[i] * v[i]
     now[0, JOINT_DAMPERS], now[0, ROOT] = dampers, data.root_power[0]
-    if model.move_ground != 0:
-        # at the base what the wrench on everything asks for, at points of the soil its force
-        ground, base = data.ground, len(data.ground) - 1
-        given = 0.0
-        for j in range(3):
-            given -= data.wrench[0, j] * ground[base, 3 + j]
-            for i in range(base):
-                given += force[i, j] * ground[i, 3 + j]
-        now[1, GROUND] = given
     for n in range(loads):
         now[0, 2 + n] = data.dissipated_power[n]
         if recorder.energies[n] == 0:

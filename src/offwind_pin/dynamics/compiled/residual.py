@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from numba import types
 
 from offwind_pin.base.definition import Array
-from offwind_pin.base.kernels import exchangeable, inlined, inner
+from offwind_pin.base.kernels import exchangeable, inner
 from offwind_pin.base.records import matrix, part
-from offwind_pin.dynamics.compiled.forward_kinematics import move_bodies, move_points
-from offwind_pin.dynamics.compiled.model import Data, Model, State, Vector
+from offwind_pin.dynamics.compiled.model import (
+    DATA,
+    MODEL,
+    ROW,
+    STATE,
+    Data,
+    Model,
+    State,
+    Vector,
+    evaluation_kernel,
+)
 from offwind_pin.dynamics.compiled.vectors import (
     add,
     axis_of,
@@ -18,70 +25,70 @@ from offwind_pin.dynamics.compiled.vectors import (
     dot,
     rigid_point_motion,
     row_of,
+    rows_dot,
     scale,
     to_world,
 )
 from offwind_pin.loads.point_load import commit_kernel, force_kernel
 from offwind_pin.loads.root_restraint import restraint_commit, restraint_kernel
 
-MODEL, DATA, STATE = Model.numba_type(), Data.numba_type(), State.numba_type()
-ROW: Any = types.float64[::1]
-
-ground_kernel = exchangeable(types.void(MODEL, DATA, ROW))
-"""Decorator for ``kernel(model, data, time_inputs)`` that moves the ground."""
-tmd_residual_kernel = exchangeable(types.void(MODEL, DATA, STATE))
-"""Decorator for ``kernel(model, data, state)`` that moves the tuned mass dampers."""
-evaluate_kernel = exchangeable(types.void(MODEL, DATA, STATE, ROW), nogil=True)
-step_kernel = exchangeable(types.void(MODEL, DATA, STATE, ROW), nogil=True)
+state_kernel = exchangeable(types.void(MODEL, DATA, STATE, ROW), nogil=True)
+"""Decorator for ``kernel(model, data, state, time_inputs)``, also called from Python."""
 
 _force, _commit = force_kernel.call, commit_kernel.call
 _reaction, _root_commit = restraint_kernel.call, restraint_commit.call
-_ground, _tmd = ground_kernel.call, tmd_residual_kernel.call
+_evaluation = evaluation_kernel.call
 
 
-@evaluate_kernel
+@state_kernel
 def evaluate(model: Model, data: Data, state: State, time_inputs: Array) -> None:
     """Set the data of a state, the residual r = rnea(q, v, a) + K q + D v + R(q, v) - Q last.
 
     time_inputs : numbers of ground and loads that depend on time alone
     """
-    if model.move_ground != 0:
-        _ground(model.move_ground, (model, data, time_inputs))
-    move_bodies(model, data, state)
-    move_points(model, data)
-    evaluate_loads(model, data, state, time_inputs)
-    collect_wrenches(model, data, state)
+    for i in range(len(model.evaluation)):
+        _evaluation(model.evaluation[i], (model, data, state, time_inputs))
+
+
+@evaluation_kernel
+def balance(model: Model, data: Data, state: State, time_inputs: Array) -> None:
+    """Sum the bodies' wrenches from the top down, and set the residual of the chain's joints."""
     q, v, stiffness, damping = state.q, state.v, model.stiffness, model.damping
     joint, wrench, residual = data.joint, data.wrench, data.residual
+    for k in range(len(wrench) - 2, -1, -1):
+        for j in range(6):
+            wrench[k, j] += wrench[k + 1, j]
     dof = 0
     for k in range(len(wrench)):
         count = model.node_joints if k > 0 else model.roots
         for _ in range(count):
-            work = 0.0
-            for j in range(6):
-                work += joint[dof, j] * wrench[k, j]
+            work = rows_dot(joint, dof, wrench, k)
             residual[dof] = stiffness[dof] * q[dof] + damping[dof] * v[dof] - work
             dof += 1
-    if model.roots > 0:
-        loads = len(model.forces)
-        past = part(state.memory, model.first_memory[loads], model.first_memory[loads + 1])
-        data.root_power[0], data.root_power[1] = _reaction(
-            model.restraint,
-            (
-                part(q, 0, 6),
-                part(v, 0, 6),
-                model.restraint_constants,
-                past,
-                data.root_reaction,
-                data.root_stiffness,
-                data.root_damping,
-            ),
-        )
-        for i in range(6):
-            residual[i] += data.root_reaction[i]
 
 
-@inlined
+@evaluation_kernel
+def restrain(model: Model, data: Data, state: State, time_inputs: Array) -> None:
+    """Add the reaction of the root's restraint to the residual of the root's joints."""
+    loads = len(model.forces)
+    past = part(state.memory, model.first_memory[loads], model.first_memory[loads + 1])
+    data.root_power[0], data.root_power[1] = _reaction(
+        model.restraint,
+        (
+            part(state.q, 0, 6),
+            part(state.v, 0, 6),
+            model.restraint_constants,
+            past,
+            data.root_reaction,
+            data.root_stiffness,
+            data.root_damping,
+        ),
+    )
+    for i in range(6):
+        data.residual[i] += data.root_reaction[i]
+
+
+@evaluation_kernel
 def evaluate_loads(model: Model, data: Data, state: State, time_inputs: Array) -> None:
     """Set the forces of all loads at their points."""
     for i in range(len(model.forces)):
@@ -90,7 +97,7 @@ def evaluate_loads(model: Model, data: Data, state: State, time_inputs: Array) -
             model.forces[i],
             (
                 part(data.motion, first, last),
-                constants_of(model, i),
+                matrix(model.constants, model.first_constant[i], last - first, model.columns[i]),
                 part(time_inputs, model.first_input[i], model.first_input[i + 1]),
                 part(state.memory, model.first_memory[i], model.first_memory[i + 1]),
                 part(data.force, first, last),
@@ -98,26 +105,20 @@ def evaluate_loads(model: Model, data: Data, state: State, time_inputs: Array) -
         )
 
 
-@inner
-def constants_of(model: Model, load: int) -> Array:
-    """(n, c) constants of a load at its n points."""
-    first, points = model.first_constant[load], model.first_point
-    rows = points[load + 1] - points[load]
-    columns = (model.first_constant[load + 1] - first) // max(rows, 1)
-    return matrix(model.constants, first, rows, columns)
-
-
-@step_kernel
+@state_kernel
 def commit(model: Model, data: Data, state: State, time_inputs: Array) -> None:
     """End a step: the memory of loads and root becomes that of the state in the data."""
     memory, first_memory, loads = state.memory, model.first_memory, len(model.forces)
     for i in range(loads):
         if model.commits[i] != 0:
+            first, last = model.first_point[i], model.first_point[i + 1]
             data.dissipated_energy[i] = _commit(
                 model.commits[i],
                 (
-                    part(data.motion, model.first_point[i], model.first_point[i + 1]),
-                    constants_of(model, i),
+                    part(data.motion, first, last),
+                    matrix(
+                        model.constants, model.first_constant[i], last - first, model.columns[i]
+                    ),
                     part(time_inputs, model.first_input[i], model.first_input[i + 1]),
                     part(memory, first_memory[i], first_memory[i + 1]),
                 ),
@@ -129,9 +130,9 @@ def commit(model: Model, data: Data, state: State, time_inputs: Array) -> None:
         )
 
 
-@inlined
-def collect_wrenches(model: Model, data: Data, state: State) -> None:
-    """Set the wrench on each body and all above: loads less inertia and weight."""
+@evaluation_kernel
+def collect_wrenches(model: Model, data: Data, state: State, time_inputs: Array) -> None:
+    """Set the wrench on each body by itself: loads less inertia and weight."""
     wrench, force, body, point_body = data.wrench, data.force, model.body, model.point_body
     last = len(wrench) - 1
     for k in range(last + 1):
@@ -152,11 +153,6 @@ def collect_wrenches(model: Model, data: Data, state: State) -> None:
         for j in range(3):
             wrench[k, j] += force[i, j]
             wrench[k, 3 + j] += lever[j] + force[i, 3 + j]
-    if model.tmd.residual != 0:
-        _tmd(model.tmd.residual, (model, data, state))
-    for k in range(last - 1, -1, -1):
-        for j in range(6):
-            wrench[k, j] += wrench[k + 1, j]
 
 
 @inner

@@ -10,8 +10,8 @@ from __future__ import annotations
 import numpy as np
 
 from offwind_pin.base.definition import Array
-from offwind_pin.base.kernels import inlined, inner
-from offwind_pin.dynamics.compiled.matrix_products import tmd_multiply_kernel
+from offwind_pin.base.kernels import inner
+from offwind_pin.base.records import clear, stack_matrix, stack_row
 from offwind_pin.dynamics.compiled.model import (
     NO_JOINT,
     Data,
@@ -19,14 +19,11 @@ from offwind_pin.dynamics.compiled.model import (
     Model,
     State,
     Vector,
+    evaluation_kernel,
+    matrix_kernel,
 )
-from offwind_pin.dynamics.compiled.newton_matrix import (
-    tmd_after_kernel,
-    tmd_before_kernel,
-    tmd_eliminate_kernel,
-)
+from offwind_pin.dynamics.compiled.newton_matrix import tmd_after_kernel, tmd_before_kernel
 from offwind_pin.dynamics.compiled.recording import tmd_between_kernel, tmd_energies_kernel
-from offwind_pin.dynamics.compiled.residual import tmd_residual_kernel
 from offwind_pin.dynamics.compiled.vectors import (
     add,
     add_arm,
@@ -41,8 +38,8 @@ from offwind_pin.dynamics.compiled.vectors import (
 )
 
 
-@tmd_residual_kernel
-def tmd_residual(model: Model, data: Data, state: State) -> None:
+@evaluation_kernel
+def tmd_residual(model: Model, data: Data, state: State, time_inputs: Array) -> None:
     """Set the residual of the dampers' joints, and take their masses off the carriers' wrenches."""
     q, v, tmd = state.q, state.v, model.tmd
     for d in range(len(tmd.body)):
@@ -59,7 +56,7 @@ def tmd_residual(model: Model, data: Data, state: State) -> None:
                 data.residual[dof] = held + dot(row_of(data.joint, dof), need)
 
 
-@inlined
+@inner
 def move_damper(model: Model, data: Data, state: State, d: int) -> None:
     """Set position, velocity and acceleration of a damper's mass, and its joints' columns."""
     k, rotation, joint = model.tmd.body[d], data.rotation, data.joint
@@ -98,9 +95,15 @@ def tmd_force(model: Model, data: Data, d: int) -> Vector:
     return scale(model.tmd.mass[d], (x, y, z + model.gravity))
 
 
-@tmd_eliminate_kernel
+@matrix_kernel
 def tmd_eliminate(
-    model: Model, data: Data, factors: Factorisation, dv_dq: float, da_dq: float
+    model: Model,
+    data: Data,
+    state: State,
+    factors: Factorisation,
+    time_inputs: Array,
+    dv_dq: float,
+    da_dq: float,
 ) -> None:
     """Eliminate the dampers' joints: what is left of their matrices goes to their carriers.
 
@@ -108,15 +111,16 @@ def tmd_eliminate(
     below; sliding turns no axis, so that the pivot blocks need no such term.
     """
     carry, follow, pivots = factors.carry, factors.follow, factors.tmd_pivot
-    point, matrices, turning = np.zeros((3, 3)), np.zeros((1, 6, 6)), np.zeros(6)
-    matrix = matrices[0]
+    point, matrix, turning = stack_matrix(3, 3), stack_matrix(6, 6), stack_row(6)
+    clear(point)
+    clear(turning)
     for d in range(len(model.tmd.body)):
         need, position = tmd_force(model, data, d), row_of(data.tmd_position, d)
-        matrix.fill(0.0)
-        add_inertia(matrices, 0, da_dq, model.tmd.mass[d], position, point)
-        add_arm(matrices, 0, position, scale(-1.0, need))
+        clear(matrix)
+        add_inertia(matrix, da_dq, model.tmd.mass[d], position, point)
+        add_arm(matrix, position, scale(-1.0, need))
         block = pivots[d]
-        block.fill(0.0)
+        clear(block)
         for i in range(2):
             dof = model.tmd.joint[d, i]
             if dof == NO_JOINT:
@@ -154,7 +158,7 @@ def tmd_eliminate(
                 factors.articulated[k, i, j] += matrix[i, j]
 
 
-@inlined
+@inner
 def follow_through(model: Model, factors: Factorisation, d: int, matrix: Array) -> None:
     """Set how a damper's joints follow its carrier, and take what that relieves off its matrix."""
     carry, follow = factors.carry, factors.follow
@@ -200,55 +204,6 @@ def tmd_after(model: Model, factors: Factorisation) -> None:
             if dof != NO_JOINT:
                 for j in range(6):
                     factors.solution[dof] -= factors.follow[dof, j] * factors.tmd_passed[d, j]
-
-
-@tmd_multiply_kernel
-def tmd_multiply(
-    model: Model,
-    data: Data,
-    factors: Factorisation,
-    dv_dq: float,
-    da_dq: float,
-    transposed: int,
-    vector: Array,
-    product: Array,
-) -> None:
-    """Set the dampers' part of a product, and turn the twists of their carriers into wrenches."""
-    point, matrices, twist = np.zeros((3, 3)), np.zeros((1, 6, 6)), np.zeros(6)
-    wrench, joint, tmd = factors.tmd_passed, data.joint, model.tmd
-    for d in range(len(tmd.body)):
-        need, position = tmd_force(model, data, d), row_of(data.tmd_position, d)
-        matrices.fill(0.0)
-        add_inertia(matrices, 0, da_dq, tmd.mass[d], position, point)
-        add_arm(matrices, 0, position, scale(-1.0, need))
-        spin = (wrench[d, 3], wrench[d, 4], wrench[d, 5])
-        for j in range(6):
-            twist[j] = wrench[d, j]
-        for i in range(2):
-            dof = tmd.joint[d, i]
-            if dof != NO_JOINT:
-                for j in range(6):
-                    twist[j] += joint[dof, j] * vector[dof]
-        for i in range(6):
-            wrench[d, i] = 0.0
-            for j in range(6):
-                entry = matrices[0, j, i] if transposed != 0 else matrices[0, i, j]
-                wrench[d, i] += entry * twist[j]
-        force = row_of(wrench, d)
-        for i in range(2):
-            dof = tmd.joint[d, i]
-            if dof == NO_JOINT:
-                continue
-            axis = row_of(joint, dof)
-            turned = cross(need, axis)
-            value = (model.stiffness[dof] + dv_dq * model.damping[dof]) * vector[dof]
-            value += dot(axis, force)
-            if transposed != 0:
-                for j in range(3):
-                    wrench[d, 3 + j] -= turned[j] * vector[dof]
-            else:
-                value -= dot(turned, spin)
-            product[dof] = value
 
 
 @tmd_between_kernel

@@ -75,35 +75,58 @@ def rigid_point_motion(
 
 
 @inner
-def add_inertia(
-    matrices: Array, k: int, factor: float, mass: float, center: Vector, inertia: Array
-) -> None:
-    """Add a rigid body's spatial inertia about the world's origin, times a factor, to matrix k."""
+def rows_dot(a: Array, i: int, b: Array, k: int) -> float:
+    """Scalar product of row i of (n, 6) and row k of (m, 6)."""
+    total = 0.0
+    for j in range(6):
+        total += a[i, j] * b[k, j]
+    return total
+
+
+@inner
+def row_dot(values: Array, i: int, vector: Array) -> float:
+    """Scalar product of row i of (n, 6) and a vector (6,)."""
+    total = 0.0
+    for j in range(6):
+        total += values[i, j] * vector[j]
+    return total
+
+
+@inner
+def add_row(vector: Array, factor: float, values: Array, i: int) -> None:
+    """Add row i of (n, 6), times a factor, to a vector (6,)."""
+    for j in range(6):
+        vector[j] += factor * values[i, j]
+
+
+@inner
+def add_inertia(matrix: Array, factor: float, mass: float, center: Vector, inertia: Array) -> None:
+    """Add a rigid body's spatial inertia about the world's origin, times a factor, to a matrix."""
     square = center[0] ** 2 + center[1] ** 2 + center[2] ** 2
     for i in range(3):
         j, m = (i + 1) % 3, (i + 2) % 3
         first = factor * mass * center[m]
         second = factor * mass * center[j]
-        matrices[k, i, i] += factor * mass
-        matrices[k, i, 3 + j] += first
-        matrices[k, i, 3 + m] -= second
-        matrices[k, 3 + j, i] += first
-        matrices[k, 3 + m, i] -= second
-        matrices[k, 3 + i, 3 + i] += factor * mass * square
+        matrix[i, i] += factor * mass
+        matrix[i, 3 + j] += first
+        matrix[i, 3 + m] -= second
+        matrix[3 + j, i] += first
+        matrix[3 + m, i] -= second
+        matrix[3 + i, 3 + i] += factor * mass * square
         for n in range(3):
             rest = inertia[i, n] - mass * center[i] * center[n]
-            matrices[k, 3 + i, 3 + n] += factor * rest
+            matrix[3 + i, 3 + n] += factor * rest
 
 
 @inner
-def add_arm(matrices: Array, k: int, position: Vector, force: Vector) -> None:
-    """Take off matrix k the moment that a held force gains as its point moves, dp x f."""
+def add_arm(matrix: Array, position: Vector, force: Vector) -> None:
+    """Take off a matrix the moment that a held force gains as its point moves, dp x f."""
     along = dot(position, force)
     for i in range(3):
         j, m = (i + 1) % 3, (i + 2) % 3
         # -[f] by translation, [f][p] by rotation
-        matrices[k, 3 + i, j] -= force[m]
-        matrices[k, 3 + i, m] += force[j]
-        matrices[k, 3 + i, 3 + i] += along
+        matrix[3 + i, j] -= force[m]
+        matrix[3 + i, m] += force[j]
+        matrix[3 + i, 3 + i] += along
         for n in range(3):
-            matrices[k, 3 + i, 3 + n] -= position[i] * force[n]
+            matrix[3 + i, 3 + n] -= position[i] * force[n]

@@ -17,6 +17,7 @@ import numpy as np
 from offwind_pin.base.definition import Array
 from offwind_pin.base.errors import InputError
 from offwind_pin.base.kernels import inner
+from offwind_pin.base.records import clear, stack_matrix, stack_row
 from offwind_pin.loads.root_restraint import KernelRestraint, restraint_commit, restraint_kernel
 
 _ARM, _COUNT, _ELEMENTS = 36, 37, 38
@@ -55,9 +56,10 @@ def _reaction(
 ) -> tuple[float, float]:
     arm, count = constants[_ARM], int(constants[_COUNT])
     now = _decoupled(displacement, arm)
-    force, tangent = np.zeros(4), np.zeros((4, 4))
+    force, pull, stretch, tangent = stack_row(4), stack_row(4), stack_row(4), stack_matrix(4, 4)
+    clear(force)
+    clear(tangent)
     stored = 0.0
-    pull, stretch = np.empty(4), np.empty(4)
     for j in range(count):
         a, b = constants[_ELEMENTS + j], constants[_ELEMENTS + count + j]
         limit = constants[_ELEMENTS + 2 * count + j]
@@ -95,7 +97,8 @@ def _to_mudline(
     force: Array, tangent: Array, arm: float, reaction: Array, stiffness: Array
 ) -> None:
     """Reaction (6,) and stiffness (6, 6) at the mudline from those of the decoupled motions."""
-    shape = np.zeros((4, 6))
+    shape = stack_matrix(4, 6)
+    clear(shape)
     shape[0, _X], shape[0, _RY] = 1.0, arm
     shape[1, _Y], shape[1, _RX] = 1.0, -arm
     shape[2, _RY] = shape[3, _RX] = 1.0

@@ -17,6 +17,7 @@ from offwind_pin.base.definition import Array
 from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError
 from offwind_pin.base.kernels import inner, kernel
+from offwind_pin.base.records import clear, part, stack_matrix
 from offwind_pin.definitions.rotor_disc import RotorDisc
 from offwind_pin.loads.point_load import (
     AXIS,
@@ -105,7 +106,7 @@ def _operate(
         past, last, new = lag_weights(step, c[_CONTROL_TIME])
         departure = past * memory[_OPERATING] + last * memory[_WIND] + new * (wind - mean)
         operating, operating_slope = mean + departure, new
-    coefficient, by_wind = thrust_coefficient(c[_TABLE:], operating)
+    coefficient, by_wind = thrust_coefficient(part(c, _TABLE, len(c)), operating)
     a, by_coefficient = induction(coefficient)
     a_slope = by_coefficient * by_wind * operating_slope
     driven, driven_slope = a * wind, a + wind * a_slope
@@ -157,7 +158,8 @@ def _tangents(
     thrust, slope, _, _, _ = _operate(
         c, time_inputs, memory, _relative_wind(motion[0], time_inputs, n)
     )
-    by_axis = np.zeros((3, 3))
+    by_axis = stack_matrix(3, 3)
+    clear(by_axis)
     cube = n[3] ** 3
     by_axis[0, 0] = sine - cosine * axis[2] * axis[0] / cube
     by_axis[0, 2] = cosine * axis[0] * axis[0] / cube

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import signal
 
 from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError
@@ -162,6 +161,8 @@ def _overlap_length(overlap: float, length: int) -> int:
 
 
 def _weights(window: str, length: int) -> Array:
+    from scipy import signal
+
     try:
         return np.asarray(signal.get_window(window, length), dtype=np.float64)
     except ValueError:

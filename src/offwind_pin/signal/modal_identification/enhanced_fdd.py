@@ -8,10 +8,10 @@ mode's correlation function, which dies away as a free decay does.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
 
 from offwind_pin.base.errors import InputError
 from offwind_pin.signal.modal_identification.cross_spectra import CrossSpectra
@@ -21,6 +21,9 @@ from offwind_pin.signal.modal_identification.free_decay import (
     extremes,
     half_cycles,
 )
+
+if TYPE_CHECKING:
+    from scipy.interpolate import CubicSpline
 
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -160,6 +163,8 @@ def _crossing_frequency(function: Array, step: float, fit: Decrement) -> float:
 
 def _window_correlation(window: Array) -> CubicSpline:
     """Correlation of a window with itself over the lag in samples, 1 at lag 0."""
+    from scipy.interpolate import CubicSpline
+
     length = len(window)
     lines = np.abs(np.fft.rfft(window, 2 * length)) ** 2
     shared = np.fft.irfft(lines, 2 * length)[:length]

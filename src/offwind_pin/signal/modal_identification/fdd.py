@@ -8,7 +8,6 @@ from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import signal
 
 from offwind_pin.base.errors import InputError
 from offwind_pin.signal.modal_identification.cross_spectra import CrossSpectra
@@ -89,6 +88,8 @@ def pick_peaks(
     prominence : (n,) array
         In dB.
     """
+    from scipy import signal
+
     level = _level(values)
     found, about = signal.find_peaks(level, prominence=prominence_db)
     inside = (frequency[found] >= band[0]) & (frequency[found] <= band[1])

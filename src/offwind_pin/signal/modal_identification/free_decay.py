@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import signal
 
 from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.errors import InputError
@@ -150,6 +149,8 @@ def extremes(values: Array, dt: float, frequency: float) -> tuple[Array, Array]:
 
     frequency : in Hz, near that of the oscillation; of what moves faster, only the largest counts
     """
+    from scipy import signal
+
     apart = max(1, int(0.6 / (frequency * dt)))
     highs = signal.find_peaks(values, distance=apart)[0]
     lows = signal.find_peaks(-values, distance=apart)[0]
@@ -265,6 +266,8 @@ def _strongest(values: Array, dt: float) -> float:
 
 
 def _filtered(values: Array, dt: float, band: tuple[float, float]) -> Array:
+    from scipy import signal
+
     low, high = band
     if not 0 < low < high < 0.5 / dt:
         allowed = f"0 < low < high < {0.5 / dt:g} Hz, half the sampling frequency"

@@ -9,6 +9,7 @@ import numpy as np
 
 from offwind_pin.base.definition import Array
 from offwind_pin.base.kernels import inner
+from offwind_pin.base.records import part
 from offwind_pin.loads.point_load import (
     ACCELERATION,
     AXIS,
@@ -26,6 +27,7 @@ _MASS, _BOTTOM, _LENGTH = range(3)
 """Columns of a strip's constants: mass in kg; where the surface moves, its ends in m as well."""
 _SURFACE = 0
 """Height of the surface among the time inputs."""
+_V, _E, _A = VELOCITY.start, AXIS.start, ACCELERATION.start
 
 
 @inner
@@ -37,7 +39,7 @@ def along(a: Array, b: Array) -> float:
 @inner
 def _resist(motion: Array, mass: float, force: Array) -> None:
     """Set the force of a mass that an acceleration across the axis moves, at one point."""
-    axis, acceleration = motion[AXIS], motion[ACCELERATION]
+    axis, acceleration = part(motion, _E, _E + 3), part(motion, _A, _A + 3)
     slide = along(axis, acceleration)
     for j in range(3):
         force[j] = -mass * (acceleration[j] - slide * axis[j])
@@ -47,7 +49,7 @@ def _resist(motion: Array, mass: float, force: Array) -> None:
 @inner
 def _resist_tangents(motion: Array, mass: float, blocks: Array) -> None:
     """Set its derivatives by acceleration and axis."""
-    axis, acceleration = motion[AXIS], motion[ACCELERATION]
+    axis, acceleration = part(motion, _E, _E + 3), part(motion, _A, _A + 3)
     slide = along(axis, acceleration)
     for j in range(3):
         for k in range(3):
@@ -78,7 +80,7 @@ def _added_mass_tangents(
 def _added_mass_energy(motion: Array, constants: Array, memory: Array) -> float:
     energy = 0.0
     for i in range(len(motion)):
-        axis, velocity = motion[i, AXIS], motion[i, VELOCITY]
+        axis, velocity = part(motion[i], _E, _E + 3), part(motion[i], _V, _V + 3)
         square = along(velocity, velocity) - along(velocity, axis) ** 2
         energy += constants[i, _MASS] * square / 2
     return energy

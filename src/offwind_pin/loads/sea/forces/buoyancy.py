@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from offwind_pin.base.definition import Array
+from offwind_pin.base.records import part
 from offwind_pin.loads.point_load import AXIS, BY_AXIS, KernelLoad, force_kernel, tangent_kernel
 from offwind_pin.loads.sea.forces.strips import Strips, Water, wet_share
 
@@ -16,6 +17,7 @@ _LIFT, _BOTTOM, _LENGTH, _STILL, _CAP = range(5)
 water; of the end of the wetted part p A in N."""
 _SURFACE = 0
 """Height of the surface among the time inputs."""
+_E = AXIS.start
 
 
 @force_kernel
@@ -23,7 +25,7 @@ def _pressure_forces(
     motion: Array, constants: Array, time_inputs: Array, memory: Array, force: Array
 ) -> float:
     for i in range(len(motion)):
-        axis, still = motion[i, AXIS], constants[i, _STILL]
+        axis, still = part(motion[i], _E, _E + 3), constants[i, _STILL]
         share = wet_share(time_inputs[_SURFACE], constants[i, _BOTTOM], constants[i, _LENGTH])
         across = constants[i, _LIFT] * (share - still)
         for j in range(3):
@@ -38,7 +40,7 @@ def _pressure_tangents(
     motion: Array, constants: Array, time_inputs: Array, memory: Array, blocks: Array
 ) -> None:
     for i in range(len(motion)):
-        axis = motion[i, AXIS]
+        axis = part(motion[i], _E, _E + 3)
         share = wet_share(time_inputs[_SURFACE], constants[i, _BOTTOM], constants[i, _LENGTH])
         across = constants[i, _LIFT] * (share - constants[i, _STILL])
         for j in range(3):

@@ -9,6 +9,7 @@ import numpy as np
 
 from offwind_pin.base.channels import Channel
 from offwind_pin.base.definition import Array
+from offwind_pin.base.records import part, stack_matrix, stack_row
 from offwind_pin.loads.point_load import (
     AXIS,
     BY_AXIS,
@@ -26,7 +27,7 @@ _INERTIA, _DRAG, _BOTTOM, _LENGTH = range(4)
 _SURFACE, _FLUID = range(2)
 """Among the time inputs: height of the surface, and where the velocities (n, 3) begin; the
 accelerations (n, 3) follow."""
-_V = VELOCITY.start
+_V, _E = VELOCITY.start, AXIS.start
 
 WAVE_ELEVATION = Channel(
     "wave_elevation",
@@ -46,10 +47,10 @@ def morison_forces(
     time_inputs (1 + 6 n) : surface in m, velocity (n, 3) in m/s, acceleration (n, 3) in m/s2
     """
     n = len(motion)
-    relative, accelerated = np.empty(3), np.empty(3)
+    relative, accelerated = stack_row(3), stack_row(3)
     power = 0.0
     for i in range(n):
-        axis = motion[i, AXIS]
+        axis = part(motion[i], _E, _E + 3)
         for j in range(3):
             relative[j] = time_inputs[_FLUID + 3 * i + j] - motion[i, _V + j]
             accelerated[j] = time_inputs[_FLUID + 3 * n + 3 * i + j]
@@ -74,10 +75,10 @@ def morison_tangents(
 ) -> None:
     """d(|w| w)/dw = |w| I + w w' / |w|, and w = P (u_w - v) with P = I - e e' of the axis e."""
     n = len(motion)
-    slip, w, accelerated = np.empty(3), np.empty(3), np.empty(3)
-    by_w, projector = np.empty((3, 3)), np.empty((3, 3))
+    slip, w, accelerated = stack_row(3), stack_row(3), stack_row(3)
+    by_w, projector = stack_matrix(3, 3), stack_matrix(3, 3)
     for i in range(n):
-        axis = motion[i, AXIS]
+        axis = part(motion[i], _E, _E + 3)
         share = wet_share(time_inputs[_SURFACE], constants[i, _BOTTOM], constants[i, _LENGTH])
         inertia, drag_factor = share * constants[i, _INERTIA], share * constants[i, _DRAG]
         for j in range(3):

@@ -204,7 +204,7 @@ def law_functions(law: type[SoilCurve]) -> LawFunctions:
     was changed from what it was. Laws of the package need none, as their cache has a folder of
     its own for each state of the package.
     """
-    ready: Any = register_jitable(error_model="numpy")
+    ready: Any = register_jitable(error_model="numpy", _nrt=True)
     return LawFunctions(
         ready(law.secant_at), ready(law.tangent_at), ready(law.energy_at), _source(law)
     )

@@ -10,6 +10,7 @@ import numpy as np
 
 from offwind_pin.base.definition import Array
 from offwind_pin.base.kernels import ExchangeableKernel, inner
+from offwind_pin.base.records import clear, part
 from offwind_pin.loads.point_load import (
     BY_POSITION,
     BY_VELOCITY,
@@ -119,16 +120,15 @@ def _spring_kernels(law: type[SoilCurve]) -> _SpringKernels:
     ) -> float:
         _source = source
         power = 0.0
+        clear(force)
         for i in range(len(motion)):
             c = constants[i]
             u, v, f, components = int(c[DEFLECTION]), int(c[RATE]), int(c[FORCE]), int(c[SIZE])
             y = deflection_size(motion[i], u, components)
-            curve = _DASHPOT + 1 + 2 * int(c[_DASHPOT])
-            spring = secant_at(c[curve:], y) * c[_LENGTH]
-            time, _ = ratio_at(c[_DASHPOT:], y)
+            curve = part(c, _DASHPOT + 1 + 2 * int(c[_DASHPOT]), len(c))
+            spring = secant_at(curve, y) * c[_LENGTH]
+            time, _ = ratio_at(part(c, _DASHPOT, len(c)), y)
             dashpot = spring * time + c[CONSTANT_DASHPOT]
-            for j in range(6):
-                force[i, j] = 0.0
             for j in range(components):
                 force[i, f + j] = -spring * motion[i, u + j] - dashpot * motion[i, v + j]
                 power += dashpot * motion[i, v + j] ** 2
@@ -144,10 +144,10 @@ def _spring_kernels(law: type[SoilCurve]) -> _SpringKernels:
             u, v, components = int(c[DEFLECTION]), int(c[RATE]), int(c[SIZE])
             stiffness, damping, first = int(c[STIFFNESS]), int(c[DAMPING]), int(c[FIRST])
             y = deflection_size(motion[i], u, components)
-            curve = _DASHPOT + 1 + 2 * int(c[_DASHPOT])
-            spring = secant_at(c[curve:], y) * c[_LENGTH]
-            time, slope = ratio_at(c[_DASHPOT:], y)
-            by_size = (tangent_at(c[curve:], y) * c[_LENGTH] - spring) / y if y > 0 else 0.0
+            curve = part(c, _DASHPOT + 1 + 2 * int(c[_DASHPOT]), len(c))
+            spring = secant_at(curve, y) * c[_LENGTH]
+            time, slope = ratio_at(part(c, _DASHPOT, len(c)), y)
+            by_size = (tangent_at(curve, y) * c[_LENGTH] - spring) / y if y > 0 else 0.0
             dashpot_by_size = by_size * time + spring * slope
             for j in range(components):
                 for k in range(components):
@@ -165,8 +165,8 @@ def _spring_kernels(law: type[SoilCurve]) -> _SpringKernels:
         for i in range(len(motion)):
             c = constants[i]
             y = deflection_size(motion[i], int(c[DEFLECTION]), int(c[SIZE]))
-            curve = _DASHPOT + 1 + 2 * int(c[_DASHPOT])
-            energy += c[_LENGTH] * energy_at(c[curve:], y)
+            curve = part(c, _DASHPOT + 1 + 2 * int(c[_DASHPOT]), len(c))
+            energy += c[_LENGTH] * energy_at(curve, y)
         return energy
 
     return _SpringKernels(spring_forces, spring_tangents, spring_energy)

@@ -15,6 +15,7 @@ import numpy as np
 
 from offwind_pin.base.definition import Array
 from offwind_pin.base.kernels import ExchangeableKernel
+from offwind_pin.base.records import clear, part
 from offwind_pin.loads.point_load import (
     DISPLACEMENT,
     MOMENT_BY_POSITION,
@@ -50,48 +51,49 @@ def _friction_kernels(lateral: type[SoilCurve], lever: type[SoilCurve]) -> _Fric
     """Kernels of moments whose lateral curves and levers have a law each."""
     secant_at, tangent_at, _, lateral_source = law_functions(lateral)
     lever_at, lever_tangent_at, _, lever_source = law_functions(lever)
+    source = lateral_source + lever_source
 
     @force_kernel
     def friction_moments(
         motion: Array, constants: Array, time_inputs: Array, memory: Array, force: Array
     ) -> float:
-        _source = lateral_source + lever_source
+        _source = source
+        clear(force)
         for i in range(len(motion)):
             c = constants[i]
-            curve = _LEVER + int(c[_LEVER_SIZE])
+            end = _LEVER + int(c[_LEVER_SIZE])
+            lever, curve = part(c, _LEVER, end), part(c, end, len(c))
             y, angle = deflection_size(motion[i], _U, 2), deflection_size(motion[i], _R, 2)
-            stiffness = c[_LENGTH] * secant_at(c[curve:], y) * y * lever_at(c[_LEVER:curve], angle)
-            for j in range(_MOMENT):
-                force[i, j] = 0.0
+            stiffness = c[_LENGTH] * secant_at(curve, y) * y * lever_at(lever, angle)
             for j in range(2):
                 force[i, _MOMENT + j] = -stiffness * motion[i, _R + j]
-            force[i, _MOMENT + 2] = 0.0
         return 0.0
 
     @tangent_kernel
     def friction_tangents(
         motion: Array, constants: Array, time_inputs: Array, memory: Array, blocks: Array
     ) -> None:
-        _source = lateral_source + lever_source
+        _source = source
         for i in range(len(motion)):
             c = constants[i]
-            curve = _LEVER + int(c[_LEVER_SIZE])
+            end = _LEVER + int(c[_LEVER_SIZE])
+            lever, curve = part(c, _LEVER, end), part(c, end, len(c))
             y, angle = deflection_size(motion[i], _U, 2), deflection_size(motion[i], _R, 2)
-            secant, tangent = secant_at(c[curve:], y), tangent_at(c[curve:], y)
-            lever = lever_at(c[_LEVER:curve], angle)
-            slope = lever_tangent_at(c[_LEVER:curve], angle)
+            secant, tangent = secant_at(curve, y), tangent_at(curve, y)
+            arm = lever_at(lever, angle)
+            slope = lever_tangent_at(lever, angle)
             for j in range(2):
                 turn = motion[i, _R + j]
                 for k in range(2):
                     if y > 0:
                         along = motion[i, _U + k] / y
-                        by_size = -c[_LENGTH] * tangent * lever * turn
+                        by_size = -c[_LENGTH] * tangent * arm * turn
                         blocks[i, MOMENT_BY_POSITION, j, k] = by_size * along
                     if angle > 0:
                         along = motion[i, _R + k] / angle
-                        by_angle = -c[_LENGTH] * secant * y * (slope - lever) / angle * turn
+                        by_angle = -c[_LENGTH] * secant * y * (slope - arm) / angle * turn
                         blocks[i, MOMENT_BY_TURN, j, k] = by_angle * along
-                blocks[i, MOMENT_BY_TURN, j, j] -= c[_LENGTH] * secant * y * lever
+                blocks[i, MOMENT_BY_TURN, j, j] -= c[_LENGTH] * secant * y * arm
 
     return _FrictionKernels(friction_moments, friction_tangents)
 
