@@ -14,6 +14,7 @@ import numpy as np
 
 from offwind_pin.base.definition import Array
 from offwind_pin.base.kernels import inner
+from offwind_pin.base.records import clear, stack_row
 from offwind_pin.dynamics.compiled.model import CoupledDampers, Data, Factorisation, Model, State
 from offwind_pin.dynamics.compiled.newton_matrix import (
     factorise,
@@ -93,7 +94,8 @@ def set_row(model: Model, data: Data, factors: Factorisation, i: int) -> None:
     coupled, row, motion, axes = model.coupled, factors.coupled_row, data.motion, data.joint
     first, begin = coupled.first_point[i], coupled.first_wrench[i]
     n = coupled.first_wrench[i + 1] - begin - 1
-    above = np.zeros(6)
+    above = stack_row(6)
+    clear(above)
     last = len(model.length)
     dof = model.roots + model.node_joints * last
     for k in range(last, -1, -1):

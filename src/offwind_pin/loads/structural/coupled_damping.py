@@ -18,30 +18,29 @@ from offwind_pin.loads.point_load import (
 )
 from offwind_pin.loads.structural.inertial_damping import InertialDamping
 
+_VELOCITY, _SPIN = VELOCITY.start, SPIN.start
+
 
 @force_kernel
 def _forces(
     motion: Array, constants: Array, time_inputs: Array, memory: Array, force: Array
 ) -> float:
     count = constants.shape[1] // 7
-    amplitude = np.zeros(count)
-    for p in range(len(motion)):
-        velocity, spin = motion[p, VELOCITY], motion[p, SPIN]
-        for i in range(count):
-            for j in range(3):
-                amplitude[i] += constants[p, 6 * i + j] * velocity[j]
-                amplitude[i] += constants[p, 6 * i + 3 + j] * spin[j]
-    power = 0.0
-    for i in range(count):
-        rate = constants[0, 6 * count + i]
-        power += rate * amplitude[i] ** 2
-        amplitude[i] *= -rate
     for p in range(len(motion)):
         for j in range(6):
             force[p, j] = 0.0
-        for i in range(count):
+    power = 0.0
+    for i in range(count):
+        speed = 0.0
+        for p in range(len(motion)):
+            for j in range(3):
+                speed += constants[p, 6 * i + j] * motion[p, _VELOCITY + j]
+                speed += constants[p, 6 * i + 3 + j] * motion[p, _SPIN + j]
+        amplitude = constants[0, 6 * count + i] * speed
+        power += amplitude * speed
+        for p in range(len(motion)):
             for j in range(6):
-                force[p, j] += amplitude[i] * constants[p, 6 * i + j]
+                force[p, j] -= amplitude * constants[p, 6 * i + j]
     return power
 
 

@@ -20,6 +20,8 @@ from offwind_pin.loads.point_load import (
 )
 from offwind_pin.loads.structural.inertial_damping import InertialDamping
 
+_VELOCITY, _SPIN = VELOCITY.start, SPIN.start
+
 
 @force_kernel
 def _forces(
@@ -27,11 +29,11 @@ def _forces(
 ) -> float:
     power = 0.0
     for p in range(len(motion)):
-        velocity, spin = motion[p, VELOCITY], motion[p, SPIN]
         for j in range(3):
-            force[p, j] = -constants[p, j] * velocity[j]
-            force[p, 3 + j] = -constants[p, 3 + j] * spin[j]
-            power += constants[p, j] * velocity[j] ** 2 + constants[p, 3 + j] * spin[j] ** 2
+            velocity, spin = motion[p, _VELOCITY + j], motion[p, _SPIN + j]
+            force[p, j] = -constants[p, j] * velocity
+            force[p, 3 + j] = -constants[p, 3 + j] * spin
+            power += constants[p, j] * velocity**2 + constants[p, 3 + j] * spin**2
     return power
 
 
