@@ -18,6 +18,11 @@ from offwind_pin.cases.case import Case, load_case
 from offwind_pin.cases.run import run_case
 from offwind_pin.definitions.reader import load_turbine
 from offwind_pin.definitions.shipped import shipped_turbines
+from offwind_pin.definitions.structural_damping import (
+    ModalDamping,
+    RayleighDamping,
+    StiffnessDamping,
+)
 from offwind_pin.definitions.tuned_mass_damper import DampedAbsorber, den_hartog
 from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.dynamics.system import System
@@ -104,6 +109,7 @@ __all__ = [
     "IrregularWaves",
     "JonswapSpectrum",
     "LoadHistory",
+    "ModalDamping",
     "ModalResult",
     "OffwindError",
     "OneStepMethod",
@@ -111,6 +117,7 @@ __all__ = [
     "PointLoad",
     "PointMotion",
     "PointTangents",
+    "RayleighDamping",
     "RegularWaves",
     "RotorThrust",
     "SaveAt",
@@ -119,6 +126,7 @@ __all__ = [
     "StaticResult",
     "StepFailed",
     "StepPolicy",
+    "StiffnessDamping",
     "StillWater",
     "System",
     "Turbine",

@@ -50,8 +50,15 @@ def test_modes_json(offwind: Any) -> None:
         "label",
         "frequency_hz",
         "damping_ratio",
+        "damping_ratio_asked",
+        "damping_ratio_structural",
+        "damping_ratio_soil",
+        "damping_ratio_water",
+        "damping_ratio_other",
         "shape_peak_height_ratio",
     }
+    asked = {row["label"]: row["damping_ratio_asked"] for row in rows}
+    assert (asked["FA1"], asked["T1"]) == (0.005, None)
     wet = {row["label"]: row["frequency_hz"] for row in rows}
     argv = ["modes", "oc6_phase2", "--foundation", "coupled_springs", "--dry", "--json"]
     dry = {row["label"]: row["frequency_hz"] for row in json.loads(offwind(*argv)[1])["modes"]}

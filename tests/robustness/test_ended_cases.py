@@ -98,7 +98,6 @@ def test_killed_in_any_phase(
     assert start(processes, killed_case.run, out) == 0
     assert {path.name for path in out.iterdir()} == FILES
     assert same(out, expected)
-    print(reached)
     # Negative control: they were killed at different stages.
     assert len(set(reached)) > 1
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from offwind_pin.analysis.assemble import assemble
 from offwind_pin.analysis.foundation.registry import make_foundation
-from offwind_pin.analysis.structural_damping import StructuralDamping, calibrate_damping
+from offwind_pin.analysis.structural_damping import damped
 from offwind_pin.base.arguments import checked
 from offwind_pin.base.errors import InputError
 from offwind_pin.definitions.element import Element
@@ -25,7 +27,7 @@ def build(
     stiffness: Stiffness = "flexibility",
     element: Element = "euler_bernoulli",
 ) -> System:
-    """Assemble chain, foundation and sea of a turbine, with calibrated structural damping.
+    """Assemble chain, foundation and sea of a turbine, with its structural damping.
 
     Parameters
     ----------
@@ -65,34 +67,40 @@ def build(
     )
     if turbine.structural_damping is None:
         return system
-    damping = structural_damping(turbine, element)
-    joints = system.joint_damping.copy()
-    joints[system.chain.roots : system.chain.axis_joints] = damping.of(system.chain).ravel()
-    return system.with_damping(joints, damping.achieved)
 
-
-def structural_damping(turbine: Turbine, element: Element = "euler_bernoulli") -> StructuralDamping:
-    """Damping factors of a turbine, calibrated on its calibration foundation, wet or dry.
-
-    Tuned mass dampers are locked: only the damping of the structure is calibrated.
-    """
-    calibration = turbine.structural_damping
-    if calibration is None:
-        raise InputError(
-            f"turbine {turbine.name}, field structural_damping",
-            "a required key is missing",
-            "",
-            "Add the block, or leave the structure undamped.",
+    def reference(kind: str | None, *, wet: bool) -> System:
+        level = 0.0 if sea is None else sea.water_level
+        locked = turbine.with_dampers_locked()
+        held, division = _locked(system.foundation), elements
+        if kind is not None:
+            held, division = _named_foundation(locked, kind), None
+        return assemble(
+            locked,
+            held,
+            StillWater(water_level=level) if wet else None,
+            elements=division,
+            stiffness=stiffness,
+            element=element,
         )
-    if calibration.foundation == "coupled_springs" and turbine.site.scour_depth != 0:
+
+    return damped(system, turbine.structural_damping, reference)
+
+
+def _locked(foundation: Foundation) -> Foundation:
+    """A foundation whose own structure, if it has one, has its tuned mass dampers locked."""
+    if foundation.structure is None:
+        return foundation
+    return replace(foundation, structure=foundation.structure.with_dampers_locked())
+
+
+def _named_foundation(turbine: Turbine, kind: str) -> Foundation:
+    """The foundation that ratios refer to."""
+    try:
+        return make_foundation(turbine, kind)
+    except InputError as error:
         raise InputError(
             f"turbine {turbine.name}, field structural_damping.foundation",
-            f"coupled_springs with a scour_depth_m of {turbine.site.scour_depth:g}",
-            "clamped, or no scour, since the 6x6 refers to the original mudline",
-            "Calibrate the structural damping on clamped.",
-        )
-    sea = StillWater() if calibration.still_water else None
-    turbine = turbine.with_dampers_locked()
-    held = make_foundation(turbine, calibration.foundation)
-    undamped = assemble(turbine, held, sea, element=element)
-    return calibrate_damping(undamped, calibration)
+            kind,
+            f"a foundation that this turbine can have ({error})",
+            "Name another one, or leave it out for the run's own.",
+        ) from None

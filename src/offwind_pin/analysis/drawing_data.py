@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from typing import Any
 
 import numpy as np
@@ -226,10 +227,10 @@ def sea_in_words(system: System) -> str:
 
 def damping_dataset(system: System) -> xr.Dataset | None:
     """Structural damping requested and achieved, or None for a turbine without."""
-    calibration = system.turbine.structural_damping
-    if calibration is None:
+    asked = system.turbine.structural_damping
+    if asked is None:
         return None
-    requested, achieved = calibration.ratios, system.damping_ratios
+    requested, achieved = asked.ratios or {}, system.damping_ratios
     labels = list(dict.fromkeys([*requested, *achieved]))
     about = {"units": "1"}
     return xr.Dataset(
@@ -241,10 +242,13 @@ def damping_dataset(system: System) -> xr.Dataset | None:
             )
             for name, ratios in (("requested", requested), ("achieved", achieved))
         },
-        {"mode": ("mode", labels, {"long_name": "label of the mode"})},
+        {"mode": ("mode", np.array(labels, dtype=str), {"long_name": "label of the mode"})},
         {
-            "foundation": calibration.foundation,
-            "water": "still water" if calibration.still_water else "dry",
+            "kind": asked.kind,
+            "definition": asked.model_dump_json(by_alias=True, exclude_none=True),
+            "foundation": asked.foundation or system.foundation.name,
+            "water": "still water" if asked.wet(in_water=system.sea is not None) else "dry",
+            "cautions": json.dumps(system.damping_cautions),
         },
     )
 

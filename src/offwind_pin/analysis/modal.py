@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,8 +14,9 @@ from offwind_pin.base.arguments import checked
 from offwind_pin.base.definition import Array
 from offwind_pin.base.descriptions import cut, html_table
 from offwind_pin.base.errors import InputError
-from offwind_pin.base.mode_labels import FAMILIES, mode_name
+from offwind_pin.base.mode_labels import DAMPING_PARTS, FAMILIES, mode_name
 from offwind_pin.definitions.engine import Engine
+from offwind_pin.dynamics.acting_loads import part_of_loads
 from offwind_pin.dynamics.system import System
 
 if TYPE_CHECKING:
@@ -31,6 +33,17 @@ _EQUAL = 1e-6
 """Relative difference of squared frequencies below which two modes form a pair."""
 _STILL = 1e-9
 """Motion of the axis over the largest joint displacement that counts as rounding error."""
+_OF_EACH_MODE = (
+    "frequency_hz",
+    "damping_ratio",
+    "damping_parts",
+    "damping_asked",
+    "participation",
+    "damper_share",
+    "shape",
+    "mass_normalised",
+    "shape_peak_height_ratio",
+)
 _SHOWN = {"FA": 0, "SS": 1, "V": 2, "T": 5}
 
 
@@ -44,6 +57,10 @@ class ModalResult:
         Undamped natural frequencies.
     damping_ratio : (n,) array
         phi' D phi / (2 omega), of critical; exact for light damping.
+    damping_parts : (n, 4) array
+        What structure, soil, water and the rest (loads, tuned mass dampers) contribute to it.
+    damping_asked : (n,) array
+        Structural damping ratio that the turbine file asks for; NaN for none.
     label : list of str
         Labels FA1, SS1, T1, V1, ..., numbered by frequency within each family. Modes of tuned mass
         dampers are TMD1, TMD2, ...: in each plane up to the number of dampers that slide in it,
@@ -69,6 +86,8 @@ class ModalResult:
 
     frequency_hz: Array
     damping_ratio: Array
+    damping_parts: Array
+    damping_asked: Array
     label: list[str]
     participation: Array
     damper_share: Array
@@ -139,6 +158,8 @@ class ModalResult:
             self.label,
             frequency_hz=self.frequency_hz,
             damping_ratio=self.damping_ratio,
+            damping_parts=self.damping_parts,
+            damping_asked=self.damping_asked,
             shape=self.shape,
             mass_normalised=self.mass_normalised,
             participation=self.participation,
@@ -165,6 +186,8 @@ class ModalResult:
         return ModalResult(
             frequency_hz=data["frequency"].to_numpy(),
             damping_ratio=data["damping_ratio"].to_numpy(),
+            damping_parts=data["damping_parts"].to_numpy(),
+            damping_asked=data["damping_asked"].to_numpy(),
             label=[str(label) for label in data["mode"].to_numpy()],
             participation=data["participation"].to_numpy(),
             damper_share=data["damper_share"].to_numpy(),
@@ -188,11 +211,26 @@ class ModalResult:
         columns = {
             "frequency_hz": self.frequency_hz,
             "damping_ratio": self.damping_ratio,
+            "damping_ratio_asked": self.damping_asked,
+            **{
+                f"damping_ratio_{name}": self.damping_parts[:, i]
+                for i, name in enumerate(DAMPING_PARTS)
+            },
             "shape_peak_height_ratio": self.shape_peak_height_ratio,
             **{f"share_{name}": self.participation[:, i] for i, name in enumerate(FAMILIES)},
             "share_dampers": self.damper_share,
         }
         return pd.DataFrame(columns, index=pd.Index(self.label, name="mode"))
+
+    def subset(self, kept: Sequence[int]) -> ModalResult:
+        """Some of the modes, by their places."""
+        rows = list(kept)
+        return replace(
+            self,
+            label=[self.label[i] for i in rows],
+            vector=self.vector[:, rows],
+            **{name: getattr(self, name)[rows] for name in _OF_EACH_MODE},
+        )
 
     def direction(self, label: str) -> str:
         """Direction in which a mode moves.
@@ -265,6 +303,8 @@ def modes(
     vectors = vectors[:, :n]
     omega = np.sqrt(found[0][:n])
     dissipation = np.sum(vectors * linear.damping_times(vectors), axis=0)
+    parts = _dissipation_by_part(system, state, linear.dissipation(vectors), vectors)
+    asked = system.turbine.structural_damping
     height = system.chain.boundary
     shape = np.array([linear.axis_shape(vector, height) for vector in vectors.T])
     peak = np.empty(n)
@@ -285,6 +325,13 @@ def modes(
     return ModalResult(
         frequency_hz=omega / (2 * np.pi),
         damping_ratio=dissipation / (2 * omega),
+        damping_parts=(parts / (2 * omega)).T,
+        damping_asked=np.array(
+            [
+                np.nan if asked is None else asked.ratio_of(mode, w / (2 * np.pi))
+                for mode, w in zip(label, omega, strict=True)
+            ]
+        ),
         label=label,
         participation=participation[:n],
         damper_share=share[:n],
@@ -295,6 +342,23 @@ def modes(
         shape_peak_height_ratio=(peak - mudline) / (top - mudline),
         engine=engine,
     )
+
+
+def _dissipation_by_part(
+    system: System, state: StaticResult, of_loads: Array, vectors: Array
+) -> Array:
+    """(4, n) power that each of :data:`DAMPING_PARTS` dissipates at joint velocities (nv, n).
+
+    of_loads : (L + 1, n) of each load and, last, of the root
+    """
+    joints = system.joint_damping[:, None] * vectors**2
+    powers = dict.fromkeys(DAMPING_PARTS, np.zeros(vectors.shape[1]))
+    powers["structural"] = joints[: system.chain.axis_joints].sum(axis=0)
+    powers["other"] = joints[system.chain.axis_joints :].sum(axis=0)
+    owners = [*part_of_loads(system, state.acting_loads()), "soil"]
+    for owner, power in zip(owners, of_loads, strict=True):
+        powers[owner] = powers[owner] + power
+    return np.array(list(powers.values()))
 
 
 def _participation(system: System, work: Array) -> Array:

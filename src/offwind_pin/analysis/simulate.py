@@ -52,6 +52,8 @@ Start = Literal["static", "undeformed"]
 
 _DT = 0.02
 """Time step in s."""
+_INERTIAL_SHARE = 0.01
+"""Of a section load, that structural damping against the inertial frame may have unsaid."""
 _BLOCK_SECONDS = 20.0
 _BLOCK_STEPS = 2000
 """A block ends with an output and is no longer than either; a killed run loses at most one."""
@@ -199,6 +201,7 @@ def simulate(
         chain.soil.height,
         _load_channels(chain.acting),
         save_at.channels,
+        inertial_damping=bool(system.structural_loads),
     )
     channels = [channel.name for channel in writer.channels]
     with _run_folder(directory, overwrite=overwrite) as folder:
@@ -229,6 +232,8 @@ def simulate(
             raise InterruptedSimulation(
                 _state(store.last()).time, writer.write(store, "interrupted", folder)
             ) from None
+        if system.structural_loads:
+            attributes |= _inertial_share(store, sections[0].height)
         data = writer.write(store, "complete", folder)
         if folder is not None and folder is not directory:
             folder.finish()
@@ -276,6 +281,32 @@ def _caution_of_travel(system: System, records: Records, cautioned: set[str]) ->
                 records["time"][first],
                 mass.travel,
             )
+
+
+def _inertial_share(store: BlockStore, height: Array) -> dict[str, Any]:
+    """Largest share of inertial damping in a section load at its height, as attributes.
+
+    Largest sizes over time are compared; a share that is worth a caution goes to the log.
+    """
+    part, whole = np.zeros((2, len(height), 2))
+    for block in store:
+        load = block["section_load"].reshape(-1, len(height), 2, 3)
+        part = np.maximum(part, block["inertial_load"].max(axis=0))
+        whole = np.maximum(whole, np.linalg.norm(load, axis=-1).max(axis=0))
+    share = np.divide(part, whole, out=np.zeros_like(part), where=whole > 0)
+    at, kind = np.unravel_index(np.argmax(share), share.shape)
+    largest, what = float(share[at, kind]), ("force", "moment")[int(kind)]
+    found: dict[str, Any] = {
+        "inertial_damping_share": largest,
+        "inertial_damping_share_of": f"section {what} at z = {height[at]:.4g} m",
+    }
+    if largest > _INERTIAL_SHARE:
+        found["inertial_damping_caution"] = (
+            f"{100 * largest:.2g} % of the largest {found['inertial_damping_share_of']} is "
+            "structural damping against the inertial frame, which a real structure does not have"
+        )
+        _log.warning("structural damping: %s", found["inertial_damping_caution"])
+    return found
 
 
 def _outputs_per_block(method: Integrator, interval: float) -> int:

@@ -6,6 +6,8 @@ import re
 
 FAMILIES = {"FA": "fore-aft", "SS": "side-side", "T": "torsion", "V": "vertical"}
 
+DAMPING_PARTS = ("structural", "soil", "water", "other")
+"""What contributes to the damping of a mode; other: loads and tuned mass dampers."""
 
 _DAMPERS = {"TMD": "tuned mass damper"}
 

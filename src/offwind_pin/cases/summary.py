@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from offwind_pin.analysis.modal import ModalResult
 from offwind_pin.analysis.static import StaticResult
+from offwind_pin.base.mode_labels import DAMPING_PARTS
 from offwind_pin.dynamics.system import System
 
 
@@ -16,17 +18,32 @@ def summarise_modes(result: ModalResult) -> list[dict[str, Any]]:
             "label": label,
             "frequency_hz": float(result.frequency_hz[i]),
             "damping_ratio": float(result.damping_ratio[i]),
+            "damping_ratio_asked": _or_none(float(result.damping_asked[i])),
+            **{
+                f"damping_ratio_{name}": float(result.damping_parts[i, j])
+                for j, name in enumerate(DAMPING_PARTS)
+            },
             "shape_peak_height_ratio": float(result.shape_peak_height_ratio[i]),
         }
         for i, label in enumerate(result.label)
     ]
 
 
+def _or_none(value: float) -> float | None:
+    return None if math.isnan(value) else value
+
+
 def summarise_damping(system: System) -> dict[str, Any]:
-    """Structural damping as requested, and as achieved on the system it was calibrated on."""
-    calibration = system.turbine.structural_damping
-    asked = {} if calibration is None else dict(calibration.ratios)
-    return {"asked": asked, "achieved": system.damping_ratios}
+    """Structural damping as requested, and as achieved on the system that the ratios refer to."""
+    asked = system.turbine.structural_damping
+    if asked is None:
+        return {"kind": None, "asked": {}, "achieved": {}, "cautions": []}
+    return {
+        "kind": asked.kind,
+        "asked": dict(asked.ratios or {}),
+        "achieved": system.damping_ratios,
+        "cautions": list(system.damping_cautions),
+    }
 
 
 def summarise_static(state: StaticResult) -> dict[str, Any]:

@@ -57,7 +57,12 @@ def summary(tree: xr.DataTree) -> dict[str, Any]:
         found = _summarise_modal(tree, states[foundation], modes)
     else:
         found = _summarise_statics(tree, foundation, states)
-    return head | found | {"structural_damping": _damping(part(tree, "structural_damping"))}
+    damping = _damping(part(tree, "structural_damping"))
+    if histories is not None and "inertial_damping_share" in histories.attrs:
+        damping["inertial_share_of_section_loads"] = histories.attrs["inertial_damping_share"]
+        if "inertial_damping_caution" in histories.attrs:
+            damping["cautions"].append(histories.attrs["inertial_damping_caution"])
+    return head | found | {"structural_damping": damping}
 
 
 def summary_head(attributes: Mapping[Any, Any]) -> dict[str, Any]:
@@ -153,17 +158,22 @@ def _frequencies(modes: ModalResult) -> dict[str, float]:
     }
 
 
-def _damping(data: xr.Dataset | None) -> dict[str, dict[str, float]]:
+def _damping(data: xr.Dataset | None) -> dict[str, Any]:
     """As :func:`summarise_damping`, from results."""
     if data is None:
-        return {"asked": {}, "achieved": {}}
-    return {
+        return {"kind": None, "asked": {}, "achieved": {}, "cautions": []}
+    ratios = {
         key: {
             str(label): float(ratio)
             for label, ratio in zip(data["mode"].to_numpy(), data[name].to_numpy(), strict=True)
             if np.isfinite(ratio)
         }
         for key, name in (("asked", "requested"), ("achieved", "achieved"))
+    }
+    return {
+        "kind": str(data.attrs["kind"]),
+        **ratios,
+        "cautions": json.loads(data.attrs["cautions"]),
     }
 
 

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Any
 
 from offwind_pin.analysis.build import build
 from offwind_pin.analysis.foundation.registry import described_foundations
 from offwind_pin.analysis.modal import modes
+from offwind_pin.base.mode_labels import DAMPING_PARTS
+from offwind_pin.cases.summary import summarise_modes
 from offwind_pin.definitions.rotor_nacelle import lump_rna
 from offwind_pin.definitions.tuned_mass_damper import TunedMassDamper
 from offwind_pin.definitions.turbine import Member, Turbine
@@ -46,7 +49,11 @@ class DamperFacts:
 
 @dataclass(frozen=True)
 class Overview:
-    """Masses, lengths and frequencies of a turbine; frequencies in Hz by foundation and label."""
+    """Masses, lengths, frequencies and damping of a turbine.
+
+    frequencies_hz, damping_ratios : by foundation and label; the second by part, see
+        :func:`summarise_modes`
+    """
 
     name: str
     description: str
@@ -61,6 +68,7 @@ class Overview:
     tuned_mass_dampers: list[DamperFacts]
     mass_above_mudline_kg: float
     frequencies_hz: dict[str, dict[str, float]]
+    damping_ratios: dict[str, dict[str, dict[str, float | None]]]
     surrogate: str | None
 
     def as_dict(self) -> dict[str, Any]:
@@ -104,6 +112,10 @@ class Overview:
             (f"{self.name}: {self.description}", lengths),
             ("Masses", masses),
             ("Natural frequencies in Hz, about the static state under gravity", frequencies),
+            (
+                "Damping in % of critical: structure + soil + water + other (asked)",
+                [(case, _damping_text(found)) for case, found in self.damping_ratios.items()],
+            ),
         ]
 
 
@@ -112,6 +124,7 @@ def overview(turbine: Turbine) -> Overview:
     rna = lump_rna(turbine.rna)
     mudline = turbine.site.mudline
     springs = turbine.soil.distributed_springs
+    found = _modes(turbine)
     return Overview(
         name=turbine.name,
         description=turbine.description,
@@ -127,7 +140,17 @@ def overview(turbine: Turbine) -> Overview:
         mass_above_mudline_kg=lump(turbine, mudline, turbine.yaw_bearing).mass
         + rna.mass
         + sum(damper.mass for damper in turbine.tuned_mass_dampers),
-        frequencies_hz=_frequencies(turbine),
+        frequencies_hz={
+            case: {label: row["frequency_hz"] for label, row in rows.items()}
+            for case, rows in found.items()
+        },
+        damping_ratios={
+            case: {
+                label: {name: row[name] for name in row if name.startswith("damping_ratio")}
+                for label, row in rows.items()
+            }
+            for case, rows in found.items()
+        },
         surrogate=springs.surrogate if springs else None,
     )
 
@@ -158,12 +181,18 @@ def _member_facts(turbine: Turbine, member: Member) -> MemberFacts:
     )
 
 
-def _frequencies(turbine: Turbine) -> dict[str, dict[str, float]]:
-    """Frequencies on every foundation that the turbine has the numbers for.
+def _damping_text(found: Mapping[str, Mapping[str, float | None]]) -> str:
+    texts = []
+    for label, ratios in found.items():
+        parts = [ratios[f"damping_ratio_{name}"] or 0.0 for name in DAMPING_PARTS]
+        text = f"{label} {' + '.join(f'{100 * part:.2f}' for part in parts)}"
+        asked = ratios["damping_ratio_asked"]
+        texts.append(text if asked is None else f"{text} ({100 * asked:.3g})")
+    return ", ".join(texts)
 
-    They are undamped: structural damping is not calibrated for them.
-    """
-    turbine = turbine.model_copy(update={"structural_damping": None})
+
+def _modes(turbine: Turbine) -> dict[str, dict[str, dict[str, Any]]]:
+    """Shown modes by label, on every foundation that the turbine has the numbers for."""
     found = {}
     for foundation in described_foundations(turbine):
         sea = None if foundation == "clamped" else StillWater()
@@ -171,9 +200,8 @@ def _frequencies(turbine: Turbine) -> dict[str, dict[str, float]]:
         sliding = system.nv - system.chain.axis_joints
         result = modes(system, min(8 + sliding, system.nv))
         water = "in still water" if sea else "dry"
+        rows = {row["label"]: row for row in summarise_modes(result)}
         found[f"{foundation}, {water}"] = {
-            label: float(result.frequency_hz[result.index(label)])
-            for label in _SHOWN_MODES
-            if label in result.label
+            label: rows[label] for label in _SHOWN_MODES if label in rows
         }
     return found

@@ -79,9 +79,7 @@ FoundationOption = Annotated[
     str,
     typer.Option(help=f"One of {', '.join(FOUNDATIONS)}.", autocompletion=_complete_foundation),
 ]
-ElementsOption = Annotated[
-    int | None, integer_option("Total number of multibody beam elements.")
-]
+ElementsOption = Annotated[int | None, integer_option("Total number of multibody beam elements.")]
 ElementOption = Annotated[
     Element, typer.Option(help="euler_bernoulli, or timoshenko to include shear.")
 ]

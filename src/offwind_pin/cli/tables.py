@@ -10,7 +10,7 @@ from rich.table import Table
 from rich.text import Text
 
 from offwind_pin.base.errors import printable
-from offwind_pin.base.mode_labels import mode_name
+from offwind_pin.base.mode_labels import DAMPING_PARTS, mode_name
 
 if TYPE_CHECKING:
     from offwind_pin.analysis.foundation.study.study import SoilOverview
@@ -41,6 +41,18 @@ def print_modes(title: str, rows: Sequence[Mapping[str, Any]]) -> None:
             f"{row['shape_peak_height_ratio']:.2f} of height",
         )
     _Plain().print(table)
+    parts = [f"damping_ratio_{name}" for name in DAMPING_PARTS]
+    columns = ["damping_ratio_asked", *parts, "damping_ratio"]
+    table = Table("mode", "asked", *DAMPING_PARTS, "total", title="Damping in % of critical")
+    for column in table.columns[1:]:
+        column.justify = "right"
+    for row in rows:
+        table.add_row(row["label"], *(_percent(row[name]) for name in columns))
+    _Plain().print(table)
+
+
+def _percent(ratio: float | None) -> str:
+    return "" if ratio is None else f"{100 * ratio:.2f}"
 
 
 def print_values(title: str, summary: Mapping[str, Any]) -> None:
@@ -63,14 +75,9 @@ def print_notes(system: System) -> None:
 
     print_surrogate(system.foundation.surrogate)
     damping = summarise_damping(system)
-    if not damping["asked"]:
+    if damping["kind"] is None:
         text = "No structural damping: the turbine file has no structural_damping block."
         _Plain().print(text, style="yellow")
-    for label, asked in damping["asked"].items():
-        achieved = damping["achieved"][label]
-        if abs(achieved / asked - 1) > 0.05:
-            text = f"Damping of {label}: {asked:.4g} requested, {achieved:.4g} achieved."
-            _Plain().print(text, style="yellow")
 
 
 def print_outcomes(outcomes: Sequence[Outcome]) -> None:

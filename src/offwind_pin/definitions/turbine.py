@@ -11,11 +11,10 @@ from collections.abc import Iterable
 from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import Field, model_validator
+from pydantic import BeforeValidator, Field, model_validator
 
 from offwind_pin.base.definition import (
     Definition,
-    Flag,
     Integer,
     NonNegative,
     Number,
@@ -28,6 +27,7 @@ from offwind_pin.definitions.hydrodynamics import Height, Hydrodynamics
 from offwind_pin.definitions.rotor import GEOMETRY, Rotor
 from offwind_pin.definitions.section import Section
 from offwind_pin.definitions.soil.springs import Soil
+from offwind_pin.definitions.structural_damping import StructuralDamping, with_kind
 from offwind_pin.definitions.tuned_mass_damper import TunedMassDamper
 
 Angle = Annotated[Number, Field(ge=-30, le=30)]
@@ -231,16 +231,6 @@ class Site(Definition):
         return -(self.water_depth + self.scour_depth)
 
 
-class DampingCalibration(Definition):
-    """Structural damping: required damping ratios of modes of the supported structure."""
-
-    foundation: Literal["clamped", "coupled_springs"]
-    still_water: Flag
-    ratios: dict[
-        Annotated[str, Field(pattern=r"^(FA|SS|T|V)[1-9]$")], Annotated[Positive, Field(lt=1)]
-    ] = Field(alias="ratios_of_critical", min_length=1)
-
-
 def _range(values: Iterable[float]) -> str:
     lowest, *_, highest = sorted(values)
     return f"{lowest:g}" if lowest == highest else f"{lowest:g} to {highest:g}"
@@ -286,7 +276,7 @@ class Turbine(Definition):
     rotor: Rotor | None = None
     hydrodynamics: Hydrodynamics
     soil: Soil
-    structural_damping: DampingCalibration | None = None
+    structural_damping: Annotated[StructuralDamping | None, BeforeValidator(with_kind)] = None
 
     def __repr__(self) -> str:
         return (

@@ -48,7 +48,7 @@ def split_memory(
 
 
 def all_loads(system: System, loads: Sequence[PointLoad]) -> list[PointLoad]:
-    """All point loads of a system: hydrodynamic loads, soil and given loads.
+    """All point loads of a system: hydrodynamic loads, soil, structural damping and given loads.
 
     Raises
     ------
@@ -64,7 +64,12 @@ def all_loads(system: System, loads: Sequence[PointLoad]) -> list[PointLoad]:
                 "Derive the class of your own load from offwind_pin.PointLoad.",
             )
     water = [] if system.hydrodynamics is None else system.hydrodynamics.loads()
-    everything: list[PointLoad] = [*water, *system.foundation.soil, *loads]
+    everything: list[PointLoad] = [
+        *water,
+        *system.foundation.soil,
+        *system.structural_loads,
+        *loads,
+    ]
     for load in everything:
         highest = system.chain.top + _REACH
         outside = (load.height < system.chain.base) | (load.height > highest)
@@ -76,6 +81,18 @@ def all_loads(system: System, loads: Sequence[PointLoad]) -> list[PointLoad]:
                 "Choose heights on the axis of the structure, or of the nacelle above it.",
             )
     return everything
+
+
+def part_of_loads(system: System, loads: Sequence[PointLoad]) -> list[str]:
+    """Which of :data:`DAMPING_PARTS` each load belongs to, of all in compiled code."""
+    water = [] if system.hydrodynamics is None else system.hydrodynamics.loads()
+    groups = {
+        "water": water,
+        "soil": system.foundation.soil,
+        "structural": system.structural_loads,
+        "other": loads,
+    }
+    return [name for name, group in groups.items() for _ in compiled_loads(list(group))]
 
 
 def compiled_loads(loads: Sequence[PointLoad]) -> list[KernelLoad]:

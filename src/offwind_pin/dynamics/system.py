@@ -15,6 +15,7 @@ from offwind_pin.loads.point_load import PointLoad
 from offwind_pin.loads.sea.hydrodynamic_loads import HydrodynamicModel
 from offwind_pin.loads.sea.sea import Sea
 from offwind_pin.loads.soil.foundation import Foundation
+from offwind_pin.loads.structural.inertial_damping import InertialDamping
 from offwind_pin.structure.chain import Chain
 
 if TYPE_CHECKING:
@@ -41,7 +42,11 @@ class System:
     joint_stiffness, joint_damping : (nv,) array
         Coefficients of the chain's joint springs and dampers, zero at the root.
     damping_ratios : dict of str to float
-        Achieved damping ratios of the calibrated modes by label.
+        Achieved ratios of the named modes by label, for the record.
+    structural_loads : tuple of InertialDamping
+        Structural damping that acts between the structure and the inertial frame.
+    damping_cautions : tuple of str
+        Sentences about structural damping that differs from what was asked for.
     """
 
     turbine: Turbine
@@ -51,6 +56,8 @@ class System:
     joint_stiffness: Array
     joint_damping: Array
     damping_ratios: dict[str, float]
+    structural_loads: tuple[InertialDamping, ...] = ()
+    damping_cautions: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
         sea = "dry" if self.sea is None else type(self.sea).__name__
@@ -104,20 +111,34 @@ class System:
         """Hydrodynamic model of the realised sea; None for a dry structure."""
         return None if self.sea is None else HydrodynamicModel.of(self.turbine, self.sea)
 
-    def with_damping(self, joint_damping: Array, ratios: dict[str, float]) -> System:
-        """The same system with other joint dampers.
+    def with_damping(
+        self,
+        joint_damping: Array,
+        ratios: dict[str, float],
+        structural_loads: tuple[InertialDamping, ...] = (),
+        cautions: tuple[str, ...] = (),
+    ) -> System:
+        """The same system with other structural damping.
 
         Parameters
         ----------
         joint_damping : (nv,) array
         ratios : dict of str to float
             Achieved damping ratios by mode label.
+        structural_loads : tuple of InertialDamping
+        cautions : tuple of str
 
         Returns
         -------
         System
         """
-        return replace(self, joint_damping=joint_damping, damping_ratios=ratios)
+        return replace(
+            self,
+            joint_damping=joint_damping,
+            damping_ratios=ratios,
+            structural_loads=structural_loads,
+            damping_cautions=cautions,
+        )
 
     def equations(
         self,

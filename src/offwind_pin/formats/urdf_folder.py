@@ -33,5 +33,8 @@ def export_urdf(system: System, out: Path) -> list[Path]:
     write_text(urdf, urdf_text(turbine, chain))
     of_nodes = system.joint_damping[chain.roots : chain.axis_joints]
     damping = of_nodes.reshape(chain.joint_stiffness.shape)
-    write_json(sidecar, write_sidecar(turbine, chain, damping, system.foundation.describe()))
+    described = write_sidecar(turbine, chain, damping, system.foundation.describe())
+    if system.structural_loads:
+        described["inertial_damping"] = [load.describe() for load in system.structural_loads]
+    write_json(sidecar, described)
     return [urdf, sidecar]

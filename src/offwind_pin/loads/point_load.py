@@ -215,8 +215,10 @@ class PointLoad(ABC):
     """
 
     moves_with_ground: ClassVar[bool] = False
-    """Whether displacements and velocities are relative to the ground in an earthquake, as for the
-    soil; forces of such loads are recorded as ``soil_force``."""
+    """Whether displacements and velocities are relative to the ground in an earthquake, as those of
+    the soil are."""
+    records_soil_force: ClassVar[bool] = True
+    """Whether the forces of a load that moves with the ground are recorded as ``soil_force``."""
     if TYPE_CHECKING:  # fields or properties of the loads themselves
 
         @property
@@ -356,6 +358,15 @@ class KernelLoad(PointLoad):
     @abstractmethod
     def constants(self) -> Array:
         """(n, c) constant numbers of each point."""
+
+    @property
+    def coupling(self) -> tuple[Array, Array] | None:
+        """Damping between its points, of which the tangents know nothing, or None.
+
+        (k, n, 6) wrenches and (k,) rates of dampers, see
+        :class:`offwind_pin.loads.structural.coupled_damping.CoupledDamping`.
+        """
+        return None
 
     @property
     def memory_size(self) -> int:
@@ -553,6 +564,27 @@ class GroupedLoad(PointLoad):
             (points, load, past)
             for (points, load), past in zip(self.groups, np.split(whole, ends), strict=True)
         ]
+
+
+def dissipated_power(load: KernelLoad, blocks: Array, rate: Array) -> float:
+    """Power that a load dissipates by linear damping, in W.
+
+    Parameters
+    ----------
+    load : KernelLoad
+        The load.
+    blocks : (n, 7, 3, 3) array
+        Derivatives of forces and moments at its points.
+    rate : (n, 6) array, m/s and rad/s
+        Velocity and spin of its points.
+    """
+    velocity, spin = rate[:, :3], rate[:, 3:]
+    power = -np.einsum("ni,nij,nj", velocity, blocks[:, BY_VELOCITY], velocity)
+    power -= np.einsum("ni,nij,nj", spin, blocks[:, MOMENT_BY_SPIN], spin)
+    if load.coupling is not None:
+        wrench, damper = load.coupling
+        power += np.sum(damper * np.einsum("knj,nj->k", wrench, rate) ** 2)
+    return float(power)
 
 
 def joined_attributes(loads: Sequence[PointLoad]) -> dict[str, str]:

@@ -83,6 +83,15 @@ CHANNELS = (
         record="imbalance",
     ),
     Channel(
+        "inertial_damping_load",
+        ("height", "resultant"),
+        "N for the force, N m for the moment",
+        "size of what structural damping against the inertial frame contributes to section loads",
+        "float32",
+        frame="",
+        record="inertial_load",
+    ),
+    Channel(
         "soil_force",
         ("soil_node", "direction"),
         "N",
@@ -145,6 +154,7 @@ COORDINATES = {
     "soil_node": {"long_name": "undeformed height of the soil node", "units": "m"},
     "damper": {"long_name": "tuned mass damper"},
     "across": {"long_name": "axis of the carrier"},
+    "resultant": {"long_name": "section force or section moment"},
 }
 """Attributes of the coordinates of a time history."""
 

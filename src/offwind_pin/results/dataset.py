@@ -61,6 +61,8 @@ class HistoryWriter:
         Channels of the loads.
     only : sequence of str, optional
         Names of the channels that are written; all unless given.
+    inertial_damping : bool
+        Whether structural damping acts against the inertial frame.
     """
 
     mudline: float
@@ -75,6 +77,7 @@ class HistoryWriter:
     soil: Array = field(default_factory=lambda: np.zeros(0))
     load_channels: Sequence[Channel] = ()
     only: Sequence[str] | None = None
+    inertial_damping: bool = False
 
     @cached_property
     def channels(self) -> tuple[Channel, ...]:
@@ -98,7 +101,8 @@ class HistoryWriter:
     @cached_property
     def records(self) -> set[str]:
         """Names of the arrays of a block that they are made of."""
-        return {"time", *_ENERGIES, *(channel.record or channel.name for channel in self.channels)}
+        names = {"time", *_ENERGIES, *(channel.record or channel.name for channel in self.channels)}
+        return names | ({"section_load", "inertial_load"} if self.inertial_damping else set())
 
     def write(self, store: BlockStore, status: str, folder: RunFolder | None) -> xr.Dataset:
         """Dataset of all blocks; with a folder it is written to ``results.nc`` and read from there.
@@ -172,6 +176,8 @@ class HistoryWriter:
             found["soil_node"] = self.soil
         if self.dampers:
             found |= {"damper": self.dampers, "across": ["x", "y"]}
+        if self.inertial_damping:
+            found["resultant"] = ["force", "moment"]
         return {name: (name, values, COORDINATES[name]) for name, values in found.items()}
 
 

@@ -10,6 +10,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from offwind_pin.base.channels import FRAME
+from offwind_pin.base.mode_labels import DAMPING_PARTS
 from offwind_pin.results.channels import SECTION
 from offwind_pin.results.dataset import versions
 from offwind_pin.results.tree import TITLES
@@ -89,6 +90,8 @@ def modal_dataset(
     *,
     frequency_hz: Array,
     damping_ratio: Array,
+    damping_parts: Array,
+    damping_asked: Array,
     shape: Array,
     mass_normalised: Array,
     participation: Array,
@@ -106,6 +109,11 @@ def modal_dataset(
     label : list of str
         Labels of the n modes.
     frequency_hz, damping_ratio : (n,) array
+        Arrays, Hz and 1.
+    damping_parts : (n, 4) array
+        1; of structure, soil, water and everything else.
+    damping_asked : (n,) array
+        1; NaN for modes that have no ratio in the turbine file.
     shape, mass_normalised : (n, m, 6) array
     participation : (n, f) array
         Participation of the f families of joints.
@@ -118,6 +126,18 @@ def modal_dataset(
     about = {
         "frequency": ("mode", frequency_hz, "natural frequency", "Hz"),
         "damping_ratio": ("mode", damping_ratio, "damping ratio, of critical", "1"),
+        "damping_parts": (
+            ("mode", "damping_part"),
+            damping_parts,
+            "contribution to the damping ratio, of critical",
+            "1",
+        ),
+        "damping_asked": (
+            "mode",
+            damping_asked,
+            "structural damping ratio asked for, of critical; NaN for none",
+            "1",
+        ),
         "shape": (along, shape, "mode shape with unit peak", "1"),
         "mass_normalised": (
             along,
@@ -159,6 +179,11 @@ def modal_dataset(
             "mode": ("mode", label, {"long_name": "label of the mode"}),
             "height": ("height", height, _HEIGHT),
             "motion": ("motion", _MOTIONS, {"long_name": "displacement or rotation of the axis"}),
+            "damping_part": (
+                "damping_part",
+                list(DAMPING_PARTS),
+                {"long_name": "what contributes to the damping ratio"},
+            ),
             "family": ("family", list(families), {"long_name": "family of joints"}),
         },
         {"title": TITLES["modes"], **versions(), "frame": FRAME, "engine": engine},

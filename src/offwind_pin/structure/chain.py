@@ -145,6 +145,16 @@ class Chain:
 NDArrayInt = np.ndarray[tuple[int, ...], np.dtype[np.intp]]
 
 
+def dof_body(chain: Chain) -> NDArrayInt:
+    """(nv,) index of the lowest body that each joint moves.
+
+    The joints of tuned mass dampers move none: they count as above the last one, N + 1.
+    """
+    nodes = np.repeat(np.arange(1, chain.elements + 1), len(chain.node_joints))
+    none = np.full(len(chain.joint_name) - chain.axis_joints, chain.elements + 1)
+    return np.concatenate([np.zeros(chain.roots, dtype=np.intp), nodes, none])
+
+
 def build_chain(
     turbine: Turbine,
     *,

@@ -173,6 +173,7 @@ def pile_part(system: System) -> System:
         joint_stiffness=system.joint_stiffness[:joints],
         joint_damping=np.zeros(joints),
         damping_ratios={},
+        structural_loads=(),
     )
 
 

@@ -10,6 +10,7 @@ import xarray as xr
 from markupsafe import Markup
 from matplotlib.figure import Figure
 
+from offwind_pin.base.mode_labels import DAMPING_PARTS
 from offwind_pin.display.figures import results as plots
 from offwind_pin.display.figures.earthquake import response_spectrum_plot
 from offwind_pin.display.figures.operational_modes import identified_plot
@@ -100,6 +101,8 @@ def _tables(report: CaseReport) -> dict[str, Any]:
         "damping": True,
         "damping_of": {} if damping is None else damping.attrs,
         "damping_rows": tables.damping_rows(damping),
+        "damping_cautions": report.summary.get("structural_damping", {}).get("cautions", []),
+        "damping_parts": DAMPING_PARTS,
         "solver": tables.solver_account(report),
         "provenance": tables.provenance(report),
         "summary_json": json.dumps(report.summary, indent=2, default=str),

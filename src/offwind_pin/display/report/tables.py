@@ -96,6 +96,8 @@ class ModeRow:
     name: str
     frequency_hz: float
     damping_ratio: float
+    damping_parts: list[float]
+    damping_asked: float | None
     peak_height_ratio: float
     peak_height: float
     published: str
@@ -261,6 +263,8 @@ def mode_rows(report: CaseReport) -> list[ModeRow]:
                 mode_name(label),
                 float(modes.frequency_hz[i]),
                 float(modes.damping_ratio[i]),
+                modes.damping_parts[i].tolist(),
+                None if np.isnan(modes.damping_asked[i]) else float(modes.damping_asked[i]),
                 ratio,
                 mudline + ratio * (top - mudline),
                 " / ".join(dict.fromkeys(printed)),

@@ -8,6 +8,7 @@ import numpy as np
 
 from offwind_pin.base.kernels import ExchangeableKernel
 from offwind_pin.dynamics.base_excitation import GROUND_NUMBERS, BaseExcitation
+from offwind_pin.dynamics.compiled.coupled import coupled_dampers
 from offwind_pin.dynamics.compiled.forward_kinematics import move_bodies, move_points
 from offwind_pin.dynamics.compiled.ground import move_ground
 from offwind_pin.dynamics.compiled.model import NO_JOINT, Model, TunedMasses
@@ -82,6 +83,7 @@ def make_model(
         rna_center=np.array(chain.rna.center_of_mass, dtype=float),
         rna_inertia=np.array(chain.rna.inertia, dtype=float),
         tmd=_tuned_masses(system),
+        coupled=coupled_dampers(loads),
         stiffness=np.ascontiguousarray(system.joint_stiffness, dtype=float),
         damping=np.ascontiguousarray(system.joint_damping, dtype=float),
         restraint=root.reaction_kernel.address if chain.roots else _NO_KERNEL,

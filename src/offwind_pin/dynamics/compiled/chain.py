@@ -19,6 +19,7 @@ from offwind_pin.base.records import Count, Record
 from offwind_pin.dynamics.acting_loads import all_loads, base_excitation_of, smooth_ramp
 from offwind_pin.dynamics.base_excitation import GROUND_NUMBERS
 from offwind_pin.dynamics.compiled.assembly import addresses, make_model
+from offwind_pin.dynamics.compiled.coupled import factorise_coupled, solve_coupled
 from offwind_pin.dynamics.compiled.ground import ground_power
 from offwind_pin.dynamics.compiled.model import Data, Factorisation, Model, State
 from offwind_pin.dynamics.compiled.newton_matrix import (
@@ -32,6 +33,7 @@ from offwind_pin.dynamics.compiled.recorder import (
     Kernels,
     Recorder,
     Segments,
+    inertial_points,
     make_cuts,
     make_recorder,
     make_segments,
@@ -42,6 +44,7 @@ from offwind_pin.dynamics.compiled.recording import (
     at_cuts,
     imbalances,
     note_kernel,
+    record_inertial,
     record_motion,
     store_energies,
     take_note,
@@ -114,6 +117,9 @@ class CompiledChain:
         self.model = make_model(system, self.loads, root, ground)
         self.data, self.state = Data.of(self.model), State.of(self.model)
         self.factors = Factorisation.of(self.model)
+        coupled = len(self.model.coupled.rate) > 0
+        self._factorise = factorise_coupled if coupled else factorise
+        self._solve = solve_coupled if coupled else solve
 
     def __reduce__(self) -> tuple[Any, ...]:
         arguments = (self.system, self._given, self.ramp_time, self.ground_motion)
@@ -154,11 +160,13 @@ class CompiledChain:
         """Make the iteration matrix about a state; both factors zero give the static tangent."""
         self._evaluate(time_inputs, q, v, a)
         with self.running():
-            factorise(self.model, self.data, self.state, self.factors, time_inputs, dv_dq, da_dq)
+            self._factorise(
+                self.model, self.data, self.state, self.factors, time_inputs, dv_dq, da_dq
+            )
 
     def correction(self, residual: Array) -> Array:
         """(nv,) solution of the iteration matrix for a right side."""
-        solve(self.model, self.factors, np.ascontiguousarray(residual, dtype=float))
+        self._solve(self.model, self.factors, np.ascontiguousarray(residual, dtype=float))
         return self.factors.solution.copy()
 
     def _evaluate(self, time_inputs: Array, q: Array, v: Array, a: Array) -> None:
@@ -276,6 +284,8 @@ class CompiledChain:
         each_step = [*([] if self.ground_motion is None else [ground_power]), add_energies]
         each_record = [record_motion, *([imbalances] if len(sections[1].cut) else [])]
         each_record.append(store_energies)
+        if self.system.structural_loads:
+            each_record.append(record_inertial)
         kernels = Kernels(
             energies=self._energies,
             commit=commit.address if self._committing else 0,
@@ -283,7 +293,9 @@ class CompiledChain:
             each_step=addresses(each_step),
             each_record=addresses(each_record),
         )
-        return make_recorder(self.model, *sections, self.soil, kernels, every, records)
+        height = sections[0].height
+        inertial = inertial_points(self.system, self.model, self.loads, height)
+        return make_recorder(self.model, *sections, self.soil, inertial, kernels, every, records)
 
     @property
     def _energies(self) -> NDArrayInt:
@@ -305,8 +317,8 @@ class CompiledChain:
             self.factors,
             recorder,
             evaluate.address,
-            factorise.address,
-            solve.address,
+            self._factorise.address,
+            self._solve.address,
             take_note.address,
         )
 

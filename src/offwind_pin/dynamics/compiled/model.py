@@ -58,6 +58,27 @@ class TunedMasses(Record):
     energies: Count
 
 
+class CoupledDampers(Record):
+    """Dampers that couple points of the structure: k of them, see :mod:`coupled`.
+
+    Attributes
+    ----------
+    rate : (k,) own force per unit of the sum of velocities that each acts on
+    first_point : (k,) first of its points
+    first_wrench : (k + 1,) where its wrenches begin in the next array, one for each point, from
+        below
+    wrench : (..., 6) force and moment at a point per unit of the damper's own force
+    factorise, solve : addresses of the kernels that know nothing of them; 0 without dampers
+    """
+
+    rate: Numbers
+    first_point: Counts
+    first_wrench: Counts
+    wrench: Numbers2
+    factorise: Count
+    solve: Count
+
+
 class Model(Record):
     """What does not change: the chain, its restraint and its loads.
 
@@ -72,6 +93,7 @@ class Model(Record):
     rna_mass, rna_center, rna_inertia : of the rotor-nacelle assembly; (3,) from the yaw bearing in
         m, (3, 3) about the centre of mass in kg m2
     tmd : tuned mass dampers
+    coupled : dampers that couple points
     stiffness, damping : (nv,) of the joint springs and dampers
     restraint, restraint_commit : addresses of the root's kernels; the second is 0 without memory
     restraint_constants : (c,) of the restraint
@@ -101,6 +123,7 @@ class Model(Record):
     rna_center: Numbers
     rna_inertia: Numbers2
     tmd: TunedMasses
+    coupled: CoupledDampers
     stiffness: Numbers
     damping: Numbers
     restraint: Count
@@ -256,6 +279,9 @@ class Factorisation(Record):
     pivot : (N + 1, 6, 6) inverted pivot block of each node, the root first
     tmd_pivot : (D, 2, 2) inverted pivot block of each damper
     tmd_passed : (D, 6) wrench that each damper passes down, then the twist of its carrier
+    coupled_row, coupled_column : (k, nv) of the coupled dampers: their generalised forces, and what
+        these move
+    coupled_block, coupled_inverse, coupled_force : (k, k), (k, k) and (k,)
     rhs : (6,) right sides of a node, on the way down
     solution : (nv,)
     """
@@ -268,6 +294,11 @@ class Factorisation(Record):
     pivot: Numbers3
     tmd_pivot: Numbers3
     tmd_passed: Numbers2
+    coupled_row: Numbers2
+    coupled_column: Numbers2
+    coupled_block: Numbers2
+    coupled_inverse: Numbers2
+    coupled_force: Numbers
     rhs: Numbers
     solution: Numbers
 
@@ -275,7 +306,7 @@ class Factorisation(Record):
     def of(cls, model: Model) -> Self:
         """Room for a model."""
         bodies, nv = len(model.body), len(model.stiffness)
-        dampers = len(model.tmd.body)
+        dampers, coupled = len(model.tmd.body), len(model.coupled.rate)
         return cls(
             blocks=np.zeros((len(model.point_body), 7, 3, 3)),
             articulated=np.zeros((bodies, 6, 6)),
@@ -285,6 +316,11 @@ class Factorisation(Record):
             pivot=np.zeros((bodies, 6, 6)),
             tmd_pivot=np.zeros((dampers, 2, 2)),
             tmd_passed=np.zeros((dampers, 6)),
+            coupled_row=np.zeros((coupled, nv)),
+            coupled_column=np.zeros((coupled, nv)),
+            coupled_block=np.zeros((coupled, coupled)),
+            coupled_inverse=np.zeros((coupled, coupled)),
+            coupled_force=np.zeros(coupled),
             rhs=np.zeros(6),
             solution=np.zeros(nv),
         )

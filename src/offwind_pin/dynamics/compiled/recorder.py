@@ -108,6 +108,9 @@ class Recorder(Record):
     commit, at_cuts : addresses of the kernels that end a step, 0 without memory, and that give
         motions and section loads
     each_step, each_record : addresses of the kernels that sum energies, and that write a record
+    first_inertial : (m,) first of the points, in order of height, at which structural damping acts
+        against the inertial frame above each cut
+    end_inertial : the point after the last of them
     tally : (2,) steps taken, records made
     clock : (1,) time of the last step in s
     power, energy : (2, L + 2) dissipated and worked, at the last step in W and so far in J
@@ -115,6 +118,8 @@ class Recorder(Record):
     time : (T,) in s
     displacement, acceleration : (T, m, 3) in m and m/s2
     section_load : (T, m, 6) in N and N m
+    inertial_load : (T, m, 2) size of force and moment that such damping contributes; (T, 0, 2)
+        without any
     imbalance : (T, g, 6) of the segments in N and N m
     soil_force : (T, n, 3) of the soil on the pile in N
     stroke : (T, D, 2) of the tuned mass dampers along x and y of their carriers in m
@@ -133,6 +138,8 @@ class Recorder(Record):
     at_cuts: Count
     each_step: Counts
     each_record: Counts
+    first_inertial: Counts
+    end_inertial: Count
     tally: Counts
     clock: Numbers
     power: Numbers2
@@ -142,6 +149,7 @@ class Recorder(Record):
     displacement: Numbers3
     acceleration: Numbers3
     section_load: Numbers3
+    inertial_load: Numbers3
     imbalance: Numbers3
     soil_force: Numbers3
     stroke: Numbers3
@@ -201,17 +209,21 @@ def make_segments(
 
 
 def make_soil_nodes(loads: Sequence[PointLoad]) -> SoilNodes:
-    """Nodes of the soil, which is what moves with the ground, among all the loads of a system."""
+    """Nodes of the soil among all the loads of a system."""
     first = _beginnings([np.arange(len(load.height)) for load in loads])
     points = [
         np.arange(begin, begin + len(load.height))
         for begin, load in zip(first[:-1], loads, strict=True)
-        if load.moves_with_ground
+        if _is_soil(load)
     ]
-    heights = [load.height for load in loads if load.moves_with_ground]
+    heights = [load.height for load in loads if _is_soil(load)]
     height, node = np.unique(np.concatenate([np.zeros(0), *heights]), return_inverse=True)
     none = np.zeros(0, dtype=np.intp)
     return SoilNodes(height, np.concatenate([none, *points]), node.astype(np.intp))
+
+
+def _is_soil(load: PointLoad) -> bool:
+    return load.moves_with_ground and load.records_soil_force
 
 
 def _is_above(system: System, model: Model, height: float) -> NDArray[np.bool_]:
@@ -249,11 +261,32 @@ class Kernels(NamedTuple):
     each_record: NDArrayInt
 
 
+def inertial_points(
+    system: System, model: Model, loads: Sequence[PointLoad], height: Array
+) -> tuple[NDArrayInt, int]:
+    """First point of inertial damping above each cut, and the point after the last.
+
+    Parameters
+    ----------
+    loads : sequence of PointLoad
+        All of a system, those of its structural damping side by side.
+    height : (m,) array, m
+        Of the cuts.
+    """
+    ours = [load in system.structural_loads for load in loads]
+    points = np.flatnonzero(np.repeat(ours, np.diff(model.first_point)))
+    if len(points) == 0:
+        return np.zeros(len(height), dtype=np.intp), 0
+    above = [int(np.sum(~_is_above(system, model, z)[points])) for z in height]
+    return points[0] + np.array(above, dtype=np.intp), int(points[-1]) + 1
+
+
 def make_recorder(
     model: Model,
     cuts: Cuts,
     segments: Segments,
     soil: SoilNodes,
+    inertial: tuple[NDArrayInt, int],
     kernels: Kernels,
     every: int,
     records: int,
@@ -270,6 +303,8 @@ def make_recorder(
         at_cuts=kernels.at_cuts,
         each_step=kernels.each_step,
         each_record=kernels.each_record,
+        first_inertial=inertial[0],
+        end_inertial=inertial[1],
         tally=np.zeros(2, dtype=np.intp),
         clock=np.zeros(1),
         power=np.zeros((2, loads + 2)),
@@ -279,6 +314,7 @@ def make_recorder(
         displacement=np.zeros((records, m, 3)),
         acceleration=np.zeros((records, m, 3)),
         section_load=np.zeros((records, m, 6)),
+        inertial_load=np.zeros((records, m if inertial[1] else 0, 2)),
         imbalance=np.zeros((records, len(segments.cut), 6)),
         soil_force=np.zeros((records, len(soil.height), 3)),
         stroke=np.zeros((records, len(model.tmd.body), 2)),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from numba import types
@@ -173,6 +174,25 @@ def at_cuts(
         moment = subtract(moment, cross(position, force))
         for j in range(3):
             section_load[m, j], section_load[m, 3 + j] = force[j], moment[j]
+
+
+@record_kernel
+def record_inertial(model: Model, data: Data, state: State, recorder: Recorder) -> None:
+    """Record what inertial damping contributes to the section loads."""
+    i = recorder.tally[1]
+    height, first, moved = recorder.cuts.height, recorder.first_inertial, recorder.displacement
+    force = moment = (0.0, 0.0, 0.0)
+    point = recorder.end_inertial
+    for m in range(len(height) - 1, -1, -1):
+        while point > first[m]:
+            point -= 1
+            pull, turn = point_wrench(data, point)
+            force = add(force, pull)
+            moment = add(moment, add(cross(row_of(data.motion, point), pull), turn))
+        position = add(row_of(moved[i], m), (0.0, 0.0, height[m]))
+        about = subtract(moment, cross(position, force))
+        recorder.inertial_load[i, m, 0] = math.sqrt(dot(force, force))
+        recorder.inertial_load[i, m, 1] = math.sqrt(dot(about, about))
 
 
 @inner

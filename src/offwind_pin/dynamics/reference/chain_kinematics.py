@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from offwind_pin.base.definition import Array
 from offwind_pin.loads.point_load import PointMotion
-from offwind_pin.structure.chain import Chain, NDArrayInt
+from offwind_pin.structure.chain import Chain, NDArrayInt, dof_body
 
 
 @dataclass(frozen=True, eq=False)
@@ -238,16 +238,6 @@ class ChainMotion:
         row = np.einsum("ij,jik->jk", self.jacobian, at_joint) @ self.jacobian
         column = self.jacobian.T @ np.einsum("jik,kj->ij", at_joint, self.jacobian)
         return np.tril(row) + np.triu(column, 1)
-
-
-def dof_body(chain: Chain) -> NDArrayInt:
-    """(nv,) index of the lowest body that each joint moves.
-
-    The joints of tuned mass dampers move none and count as above the last body, N + 1.
-    """
-    nodes = np.repeat(np.arange(1, chain.elements + 1), len(chain.node_joints))
-    none = np.full(len(chain.joint_name) - chain.axis_joints, chain.elements + 1)
-    return np.concatenate([np.zeros(chain.roots, dtype=np.intp), nodes, none])
 
 
 def cross(a: Array, b: Array) -> Array:

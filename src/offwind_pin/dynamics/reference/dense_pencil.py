@@ -30,6 +30,10 @@ class DensePencil:
         """(nv, n) product with vectors (nv, n)."""
         return np.asarray(self._damping @ vectors)
 
+    def dissipation(self, vectors: Array) -> Array:
+        """(L + 1, n) power that each load and, last, the root dissipates at velocities (nv, n)."""
+        return self._equations.dissipation(self._q, vectors)
+
     def axis_shape(self, vector: Array, height: Array) -> Array:
         """(m, 6) displacement and rotation of the axis at heights (m,) per unit of a vector."""
         motion = self._equations.chain_motion(self._q, vector)

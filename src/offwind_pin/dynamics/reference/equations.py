@@ -32,11 +32,17 @@ from offwind_pin.loads.point_load import (
     MOMENT_BY_POSITION,
     MOMENT_BY_SPIN,
     MOMENT_BY_TURN,
+    SPIN,
+    VELOCITY,
     PointForces,
     PointLoad,
     PointMotion,
+    dissipated_power,
 )
 from offwind_pin.loads.root_restraint import FREE
+
+_RATE = np.r_[VELOCITY, SPIN]
+"""Columns of velocity and spin."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -154,6 +160,26 @@ class Equations:
             damping[:6, :6] += by_rate
         return stiffness, damping
 
+    def dissipation(self, q: Array, vectors: Array) -> Array:
+        """(L + 1, n) power that each load and, last, the root dissipates at rest in q, in W.
+
+        vectors : (nv, n) small joint velocities
+        """
+        rest = np.zeros_like(q)
+        points = self.chain_motion(q, rest).points(self.points)
+        powers = np.zeros((len(self.loads) + 1, vectors.shape[1]))
+        moving = [self.chain_motion(q, vector).points(self.points) for vector in vectors.T]
+        parts = zip(self.loads, self._parts, self._memory[:-1], strict=True)
+        for n, (load, part, past) in enumerate(parts):
+            blocks = load.tangents(0.0, points[part], 0.0, past).blocks()
+            for i, rates in enumerate(moving):
+                rate = rates.columns()[part][:, _RATE]
+                powers[n, i] = dissipated_power(load, blocks, rate)
+        if self.chain.roots:
+            _, damping = self._root.tangents(q[:6], rest[:6], self._memory[-1])
+            powers[-1] = np.sum(vectors[:6] * (damping @ vectors[:6]), axis=0)
+        return powers
+
     def acceleration(self, time: float, q: Array, v: Array) -> Array:
         """(nv,) acceleration that satisfies the equations."""
         rhs = self.residual(time, q, v, np.zeros_like(q))
@@ -269,7 +295,22 @@ class Equations:
                 by_q -= np.tensordot(how.rotation, change, axes=([0, 1], [0, 1]))
                 change = np.einsum("nij,njk->nik", blocks[:, MOMENT_BY_SPIN], how.rotation)
                 by_v -= np.tensordot(how.rotation, change, axes=([0, 1], [0, 1]))
+            if load.coupling is not None:
+                wrench, rate = load.coupling
+                by_speed = _sums(wrench, how.position, how.rotation)
+                moved = _sums(wrench, how.velocity_by_q, how.spin_by_q)
+                by_v += by_speed.T @ (rate[:, None] * by_speed)
+                by_q += by_speed.T @ (rate[:, None] * moved)
         by_q -= state.motion.geometric_stiffness(
             self.points, state.points.position, state.forces.force, state.forces.moment
         )
         return by_q, by_v, by_a
+
+
+def _sums(wrench: Array, linear: Array, angular: Array) -> Array:
+    """(k, nv) weighted sums of derivatives (n, 3, nv) of velocities and spins of points.
+
+    wrench : (k, n, 6) weights
+    """
+    by_velocity = np.tensordot(wrench[..., :3], linear, axes=([1, 2], [0, 1]))
+    return np.asarray(by_velocity + np.tensordot(wrench[..., 3:], angular, axes=([1, 2], [0, 1])))

@@ -54,7 +54,13 @@ def _rigid_bodies(system: System) -> System:
     """The same without springs, dampers and soil, which a URDF does not contain."""
     nothing = np.zeros(system.nv)
     free = replace(system.foundation, root=None, soil=())
-    return replace(system, foundation=free, joint_stiffness=nothing, joint_damping=nothing)
+    return replace(
+        system,
+        foundation=free,
+        joint_stiffness=nothing,
+        joint_damping=nothing,
+        structural_loads=(),
+    )
 
 
 def _off(found: Array, ours: Array) -> float:

@@ -1,0 +1,1 @@
+"""Structural damping that acts between the structure and the inertial frame."""
