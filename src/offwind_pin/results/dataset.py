@@ -112,10 +112,10 @@ class HistoryWriter:
             whole = {name: np.concatenate([block[name] for block in blocks]) for name in records}
             return self._dataset(whole, status, start)
         dtypes = {channel.name: channel.dtype for channel in self.channels}
-        blocks = iter(store)
-        first = self._dataset(next(blocks), status, start)
+        following = iter(store)
+        first = self._dataset(next(following), status, start)
         with folder.replacing(RESULTS) as path:
-            append_netcdf(path, first, (self._values(block, start) for block in blocks), dtypes)
+            append_netcdf(path, first, (self._values(block, start) for block in following), dtypes)
         return xr.open_dataset(path, engine="netcdf4")
 
     def _dataset(self, block: Block, status: str, start: float) -> xr.Dataset:
