@@ -40,7 +40,7 @@ ROTOR = {"kind": "rotor", "wind_speed_m_per_s": 9.0, "turbulence_class": "B"}
 
 def run(folder: Path, load: dict[str, Any], *, report: bool = False) -> dict[str, Any]:
     (folder / "case.yaml").write_text(yaml.safe_dump(CASE | {"tower_top_load": load}))
-    run_case(folder / "case.yaml", folder / "out", report=report)
+    run_case(folder / "case.yaml", folder / "out", report=report, overwrite=True)
     summary: dict[str, Any] = json.loads((folder / "out" / "summary.json").read_text())
     return summary
 

@@ -202,7 +202,7 @@ def _shortened(name: str) -> Case:
         if isinstance(case.analysis, TransientAnalysis):
             case = case.replace(analysis=case.analysis.replace(duration=120.0, psd_segment=50.0))
         elif isinstance(case.analysis, ModalAnalysis) and case.analysis.identify is not None:
-            record = case.analysis.identify.replace(duration=600.0, segment=100.0)
+            record = case.analysis.identify.replace(duration=1000.0, segment=100.0)
             case = case.replace(analysis=case.analysis.replace(identify=record))
     return case
 

@@ -45,7 +45,7 @@ def structure(problem: ModuleType) -> ow.System:
 @pytest.fixture(scope="module")
 def by_radau(problem: ModuleType, structure: ow.System) -> Array:
     """Seabed moment by the other integrator, on Pinocchio's equations."""
-    integrator = SciPyIVP("Radau", 1e-8, 1e-10)
+    integrator = SciPyIVP("Radau", 1e-6, 1e-8)
     data = problem.run(OUTPUT, DURATION, structure, output_dt=OUTPUT, integrator=integrator)
     return problem.seabed_moment(data)
 
