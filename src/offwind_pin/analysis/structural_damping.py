@@ -23,9 +23,9 @@ class StructuralDamping:
     Attributes
     ----------
     factor : dict of str to (float, float), s
-        Damping over stiffness, by region: (side-side, fore-aft); torsion takes their mean.
+        Damping over stiffness by region, (side-side, fore-aft); torsion has their mean.
     achieved : dict of str to float
-        Damping ratio of the calibrated modes on the system they were calibrated on.
+        Damping ratio of the calibrated modes on the calibration system.
     """
 
     factor: dict[str, tuple[float, float]]
@@ -34,8 +34,8 @@ class StructuralDamping:
     def of(self, chain: Chain) -> Array:
         """(N, d) damping of a chain's joints in N m s/rad and N s/m.
 
-        The embedded pile has none: the springs at the mudline that stand for it in the calibration
-        have none either, and its soil has dashpots of its own.
+        The embedded pile has none: neither have the springs at the mudline that replace it in the
+        calibration, and the soil has its own dashpots.
         """
         pairs = np.array([self.factor.get(region, (0.0, 0.0)) for region in chain.region])
         side_side, fore_aft = pairs.T
@@ -45,10 +45,10 @@ class StructuralDamping:
 
 
 def calibrate_damping(undamped: System, calibration: DampingCalibration) -> StructuralDamping:
-    """Factors by region and plane that bring the named modes to their ratios.
+    """Factors by region and plane that give the named modes their damping ratios.
 
-    Non-negative least squares on phi' D phi = 2 zeta omega, which is linear in the factors; what is
-    achieved is reported, and equals what was asked where the factors can reach it.
+    Non-negative least squares on phi' D phi = 2 zeta omega, which is linear in the factors. The
+    achieved ratios are reported; they equal the requested ones where the factors allow.
 
     Raises
     ------
@@ -81,8 +81,8 @@ def calibrate_damping(undamped: System, calibration: DampingCalibration) -> Stru
 def _non_negative_least_squares(matrix: Array, wanted: Array) -> Array:
     """Least squares with non-negative unknowns.
 
-    A unique unconstrained solution that is not negative is the answer. SciPy's optimisers, which
-    are slow to import, are needed otherwise only.
+    A unique, non-negative unconstrained solution is the answer; only otherwise are SciPy's
+    optimisers needed, which are slow to import.
     """
     free, _, rank, _ = np.linalg.lstsq(matrix, wanted)
     if rank == matrix.shape[1] and np.all(free >= 0):
@@ -93,7 +93,7 @@ def _non_negative_least_squares(matrix: Array, wanted: Array) -> Array:
 
 
 def _modal_ratios(system: System, result: ModalResult, index: list[int], damping: Array) -> Array:
-    """(n,) ratio that joint dampers alone give the chosen modes."""
+    """(n,) damping ratios of the chosen modes due to joint dampers alone."""
     rates = result.vector[system.chain.roots : system.chain.axis_joints, index]
     omega = 2 * np.pi * result.frequency_hz[index]
     return np.sum(damping[:, None] * rates**2, axis=0) / (2 * omega)
@@ -105,6 +105,6 @@ def _find(result: ModalResult, label: str) -> int:
             f"structural_damping.ratios_of_critical.{label}",
             label,
             ", ".join(result.label),
-            "Name modes of the supported structure.",
+            "Use labels of modes of the supported structure.",
         )
     return result.label.index(label)

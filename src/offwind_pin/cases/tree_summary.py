@@ -154,7 +154,7 @@ def _frequencies(modes: ModalResult) -> dict[str, float]:
 
 
 def _damping(data: xr.Dataset | None) -> dict[str, dict[str, float]]:
-    """As :func:`summarise_damping`, of results."""
+    """As :func:`summarise_damping`, from results."""
     if data is None:
         return {"asked": {}, "achieved": {}}
     return {

@@ -30,7 +30,7 @@ class _Plain(Console):
 
 
 def print_modes(title: str, rows: Sequence[Mapping[str, Any]]) -> None:
-    """A line for each mode, as :func:`summarise_modes` gives them."""
+    """One line per mode, as returned by :func:`summarise_modes`."""
     table = Table("mode", "", "frequency", "damping", "peak at", title=title)
     for row in rows:
         table.add_row(
@@ -69,17 +69,17 @@ def print_notes(system: System) -> None:
     for label, asked in damping["asked"].items():
         achieved = damping["achieved"][label]
         if abs(achieved / asked - 1) > 0.05:
-            text = f"Damping of {label}: {asked:.4g} asked for, {achieved:.4g} achieved."
+            text = f"Damping of {label}: {asked:.4g} requested, {achieved:.4g} achieved."
             _Plain().print(text, style="yellow")
 
 
 def print_outcomes(outcomes: Sequence[Outcome]) -> None:
-    """A table for each group, and what failed once more at the end."""
+    """One table per group, and the failures repeated at the end."""
     from offwind_pin.verification.page import outcome_cells
 
     console = _Plain()
     for group in dict.fromkeys(outcome.row.group for outcome in outcomes):
-        table = Table("row", "found", "off by", "allowed", "", title=f"\n{group}", box=None)
+        table = Table("row", "value", "difference", "tolerance", "", title=f"\n{group}", box=None)
         table.title_justify = "left"
         for outcome in outcomes:
             if outcome.row.group == group:
