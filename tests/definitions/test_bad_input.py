@@ -82,7 +82,10 @@ TURBINE_FAULTS: dict[str, tuple[Callable[[Definition], None], list[str]]] = {
         _set(*STATION, "diameter_m", to=-7.46),
         ["diameter_m", "-7.46", "greater"],
     ),
-    "zero thickness": (_set(*STATION, "thickness_m", to=0), ["thickness_m", "greater than 0"]),
+    "zero thickness": (
+        _set(*STATION, "thickness_m", to=0),
+        ["thickness_m", "greater than 0"],
+    ),
     "thickness in mm": (_set(*STATION, "thickness_m", to=60), ["thickness_m", "60", "unit"]),
     "thickness larger than the radius": (
         _set(*STATION, to={"z_m": 41.52, "diameter_m": 1.0, "thickness_m": 0.6}),

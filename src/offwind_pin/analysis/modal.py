@@ -13,7 +13,7 @@ from offwind_pin.analysis.static import StaticResult, static
 from offwind_pin.base.arguments import checked
 from offwind_pin.base.definition import Array
 from offwind_pin.base.descriptions import cut, html_table
-from offwind_pin.base.errors import InputError
+from offwind_pin.base.errors import InputError, SolverError
 from offwind_pin.base.mode_labels import DAMPING_PARTS, FAMILIES, mode_name
 from offwind_pin.definitions.engine import Engine
 from offwind_pin.dynamics.acting_loads import part_of_loads
@@ -276,7 +276,7 @@ def modes(
     InputError
         n outside 1 ... number of degrees of freedom, or an unknown engine.
     SolverError
-        The static state was not found.
+        The static state was not found, or the modes were not.
     """
     check_engine(engine)
     if not 1 <= n <= system.nv:
@@ -294,7 +294,7 @@ def modes(
     # One mode more than requested, so that no pair of equal frequency is split, and more with
     # dampers, so that labels do not depend on the number of modes.
     count = n + 1 + 2 * (system.nv - system.chain.axis_joints)
-    found = linear.lowest(min(count, system.nv))
+    found = _lowest(system, linear, min(count, system.nv))
     vectors = _separate_planes(system, linear, *found)
     work = vectors * linear.stiffness_times(vectors)
     participation = _participation(system, work)
@@ -359,6 +359,34 @@ def _dissipation_by_part(
     for owner, power in zip(owners, of_loads, strict=True):
         powers[owner] = powers[owner] + power
     return np.array(list(powers.values()))
+
+
+def _lowest(
+    system: System, linear: CompiledPencil | DensePencil, count: int
+) -> tuple[Array, Array]:
+    """Squares of the lowest circular frequencies (count,) and their modes (nv, count).
+
+    Raises
+    ------
+    SolverError
+        They were not found, or are not positive.
+    """
+    reason = "a square of a frequency is not positive"
+    try:
+        squares, vectors = linear.lowest(count)
+    except np.linalg.LinAlgError as error:
+        reason = str(error)
+    else:
+        if np.all(np.isfinite(squares) & (squares > 0)) and np.all(np.isfinite(vectors)):
+            return squares, vectors
+    stiffest = int(np.argmax(system.joint_stiffness))
+    raise SolverError(
+        f"natural modes: {reason}; are the stiffness of the joint below ("
+        f"{system.joint_stiffness[stiffest]:.3g} N m/rad) and the masses in proportion?",
+        step=count,
+        joint=system.chain.joint_name[stiffest],
+        residual=float("nan"),
+    )
 
 
 def _participation(system: System, work: Array) -> Array:

@@ -143,13 +143,6 @@ def simulate(
     _check_settings(duration, dt, ramp, integrator)
     if start not in get_args(Start):
         raise InputError("start", start, ", ".join(get_args(Start)), "Choose one.")
-    if not isinstance(ground_motion, GroundMotion | None):
-        raise InputError(
-            "ground_motion",
-            type(ground_motion).__name__,
-            "a GroundMotion or None",
-            "Create a GroundMotion.",
-        )
     method = integrator or GeneralizedAlpha(FixedStep(_DT if dt is None else dt))
     interval = save_at.output_dt or method.time_step
     if interval is None:

@@ -167,6 +167,8 @@ def _beginning(value: object, limit: int) -> str:
     # 18.0 rather than np.float64(18.0); NumPy is not imported for the sake of messages.
     if getattr(value, "shape", 1) == ():
         value = getattr(value, "item", lambda: value)()
+    elif isinstance(getattr(value, "shape", None), tuple):
+        return f"an array of shape {getattr(value, 'shape', None)}"
     if isinstance(value, str):
         return repr(value[: limit + 1])
     if isinstance(value, int) and value.bit_length() > 4 * limit:

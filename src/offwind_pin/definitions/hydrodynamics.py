@@ -97,7 +97,7 @@ class MarineGrowth(Definition):
     """
 
     z: tuple[Height, Height] = Field(alias="z_m")
-    thickness: Annotated[Positive, Field(le=1)] = Field(alias="thickness_m")
+    thickness: Annotated[Positive, Field(ge=1e-4, le=1)] = Field(alias="thickness_m")
     density: Annotated[Positive, Field(ge=1000, le=3000)] = Field(
         alias="density_kg_per_m3", default=1325.0
     )

@@ -51,8 +51,8 @@ class Station(Definition):
     """Circular hollow section at one height; between stations both numbers vary linearly."""
 
     z: Height = Field(alias="z_m")
-    diameter: Annotated[Positive, Field(le=50)] = Field(alias="diameter_m")
-    thickness: Annotated[Positive, Field(le=1)] = Field(alias="thickness_m")
+    diameter: Annotated[Positive, Field(ge=1e-3, le=50)] = Field(alias="diameter_m")
+    thickness: Annotated[Positive, Field(ge=1e-5, le=1)] = Field(alias="thickness_m")
 
     @model_validator(mode="after")
     def _wall_fits(self) -> Station:
