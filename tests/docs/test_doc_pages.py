@@ -67,7 +67,7 @@ def unknown_names(page: str, known: set[str]) -> list[str]:
     return found
 
 
-LOCAL = {"by_a", "by_v", "rnea"}
+LOCAL = {"da_dq", "dv_dq", "rnea"}
 """Names within a function, and Pinocchio's, that a page of the theory explains."""
 
 

@@ -29,9 +29,9 @@ from offwind_pin.dynamics.reference.chain_kinematics import AxisPoints, ChainMot
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.earthquake.ground_motion import GroundMotion
 from offwind_pin.loads.point_load import (
+    MOMENT_BY_ANGULAR_VELOCITY,
     MOMENT_BY_POSITION,
-    MOMENT_BY_SPIN,
-    MOMENT_BY_TURN,
+    MOMENT_BY_ROTATION,
     PointForces,
     PointLoad,
     PointMotion,
@@ -264,10 +264,16 @@ class Equations:
             blocks = tangents.blocks()
             if np.any(blocks[:, MOMENT_BY_POSITION:]):
                 change = np.einsum("nij,njk->nik", blocks[:, MOMENT_BY_POSITION], how.position)
-                change += np.einsum("nij,njk->nik", blocks[:, MOMENT_BY_TURN], how.turn)
-                change += np.einsum("nij,njk->nik", blocks[:, MOMENT_BY_SPIN], how.spin_by_q)
+                change += np.einsum(
+                    "nij,njk->nik", blocks[:, MOMENT_BY_ROTATION], how.rotation_vector
+                )
+                change += np.einsum(
+                    "nij,njk->nik", blocks[:, MOMENT_BY_ANGULAR_VELOCITY], how.angular_velocity_by_q
+                )
                 by_q -= np.tensordot(how.rotation, change, axes=([0, 1], [0, 1]))
-                change = np.einsum("nij,njk->nik", blocks[:, MOMENT_BY_SPIN], how.rotation)
+                change = np.einsum(
+                    "nij,njk->nik", blocks[:, MOMENT_BY_ANGULAR_VELOCITY], how.rotation
+                )
                 by_v -= np.tensordot(how.rotation, change, axes=([0, 1], [0, 1]))
         by_q -= state.motion.geometric_stiffness(
             self.points, state.points.position, state.forces.force, state.forces.moment
