@@ -428,7 +428,7 @@ def test_arguments_that_cannot_be_used(arguments: list[str], says: str, offwind:
     [
         (lambda data: data.drop_vars("displacement"), "displacement over time"),
         (lambda data: data.assign_attrs(turbine="another"), "of turbine another"),
-        (lambda data: data.assign_attrs(definition_sha256="0"), "of another oc6_phase2"),
+        (lambda data: data.assign_attrs(definition_sha256="0"), "of a changed oc6_phase2"),
         (lambda data: data.sel(height=data.height >= -30.0), "down to"),
         (lambda data: data.assign_attrs(ramp_s=1e3), "ramp"),
     ],

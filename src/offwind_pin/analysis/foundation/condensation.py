@@ -148,7 +148,7 @@ def condense(
     residual = float(np.max(np.abs(chain.residual(chain.mean_inputs(), q, rest, rest))))
     residual /= load_scale(system)
     if residual > _OUT_OF_BALANCE:
-        allowed = "a static state of this system, in balance"
+        allowed = "a static state of this system, in equilibrium"
         raise InputError(
             "about",
             f"a residual of {residual:.2g} of the loads",
