@@ -81,7 +81,7 @@ def turbine() -> ow.Turbine:
 
 
 def system(elements: Elements = None, element: Element = "euler_bernoulli") -> ow.System:
-    """Problem P's structure; its own 80 elements unless told a total or numbers by region."""
+    """Problem P's structure; its own 80 elements unless given a total or numbers by region."""
     bare = ow.build(
         turbine(),
         "distributed_springs",

@@ -52,7 +52,7 @@ def test_errors_are_copied_whole(
         assert same.identical(value) if isinstance(value, xr.Dataset) else same == value
 
 
-def test_what_cannot_be_pickled_is_told_in_words() -> None:
+def test_what_cannot_be_pickled_is_reported_in_words() -> None:
     """A received value that no other process can have comes as its text, the message unchanged."""
     error = ow.InputError("loads", lambda: 0, "a load", "Give one.")
     found = pickled(error)

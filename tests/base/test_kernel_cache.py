@@ -56,7 +56,7 @@ def test_damaged(
     campaign_seed: int,
     suffix: str,
 ) -> None:
-    """Truncated anywhere, with one byte changed, empty: compiled again and repaired, told once."""
+    """Truncated anywhere, with one byte changed, empty: compiled again and repaired, reported once."""
     assert not compiled()
     path = next(path for path in files(tmp_path) if path.suffix == suffix)
     whole = path.read_bytes()
@@ -88,7 +88,7 @@ def test_a_directory_that_cannot_be(
     caplog: pytest.LogCaptureFixture,
     place: str,
 ) -> None:
-    """Where the directory should be there is a file: told once, and nothing else is written."""
+    """Where the directory should be there is a file: reported once, and nothing else is written."""
     directory = tmp_path / "home"
     directory.mkdir()
     monkeypatch.setattr(kernels, "_cache_directory", lambda: directory / "cache")

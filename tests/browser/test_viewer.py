@@ -458,7 +458,7 @@ def listening(tables: list[str], inodes: set[str]) -> list[str]:
 
 
 def test_listening_sockets_are_found() -> None:
-    """Negative control: a socket bound to every interface is told from one bound to this host."""
+    """Negative control: a socket bound to every interface is distinguished from one bound to this host."""
     head = "sl local_address rem_address st tx_queue:rx_queue tr:tm retrnsmt uid timeout inode"
     row = "   0: {}:1F90 00000000:0000 {} 00000000:00000000 00:00000000 00000000  1000 0 {} 1"
     table = "\n".join(

@@ -248,10 +248,10 @@ class TestRunning:
 
         with pytest.raises(ow.InterruptedSimulation):
             run_case(path, out, report=False, progress=stop)
-        told = json.loads((out / "summary.json").read_text())
-        assert told["status"] == "interrupted"
+        reported = json.loads((out / "summary.json").read_text())
+        assert reported["status"] == "interrupted"
         with open_case(out) as tree:
-            assert summary(tree) == told
+            assert summary(tree) == reported
         assert offwind("report", str(out))[0] == 0
         page = (out / "report.html").read_text()
         assert "Not complete." in page
@@ -259,7 +259,7 @@ class TestRunning:
         assert 'id="psd"' not in page
         found = run_case(path, out, report=False)
         assert found["status"] == "complete"
-        assert found["resumed_at_s"] == told["simulated_s"]
+        assert found["resumed_at_s"] == reported["simulated_s"]
         whole = json.loads((runs["transient"] / "summary.json").read_text())
         for key in ("wall_s", "realtime_factor", "resumed_at_s"):
             found.pop(key)

@@ -72,17 +72,17 @@ def test_case_to_report(folder: Path) -> None:
         assert "record.txt" in data.attrs["ground_motion_origin"]
         assert "absolute" in data["displacement"].attrs["long_name"]
         assert "ground" in data["source"].to_numpy()
-    told = json.loads((folder / "out" / "summary.json").read_text())["earthquake"]
-    peak = told["peak_ground_acceleration_m_per_s2"]
+    reported = json.loads((folder / "out" / "summary.json").read_text())["earthquake"]
+    peak = reported["peak_ground_acceleration_m_per_s2"]
     assert peak["y"] == pytest.approx(np.abs(expected.corrected[0, :, 1]).max(), rel=1e-9)
     assert peak["x"] == pytest.approx(0.0, abs=1e-12)
     velocity = np.abs(expected.motion(expected.time)[:, 0, 1, 2]).max()
-    assert told["peak_ground_velocity_m_per_s"]["z"] == pytest.approx(velocity, rel=1e-9)
+    assert reported["peak_ground_velocity_m_per_s"]["z"] == pytest.approx(velocity, rel=1e-9)
     fine = expected.motion(np.linspace(3, 15, 24001))[:, 0, 2, 1]
     squares = np.pi / (2 * 9.81) * np.trapezoid(fine**2, dx=0.0005)
-    assert told["arias_intensity_m_per_s"]["y"] == pytest.approx(squares, rel=1e-3)
-    assert 3 < told["significant_duration_5_95_s"]["y"] < 9
-    first = told["response_spectrum_at_modes"][0]
+    assert reported["arias_intensity_m_per_s"]["y"] == pytest.approx(squares, rel=1e-3)
+    assert 3 < reported["significant_duration_5_95_s"]["y"] < 9
+    first = reported["response_spectrum_at_modes"][0]
     ordinate = response_spectrum(expected.corrected[0, :, 1], 0.02, np.array([first["period_s"]]))
     assert 3 < first["period_s"] < 5
     assert first["displacement_m"]["y"] == pytest.approx(ordinate.displacement[0], rel=1e-6)
@@ -166,11 +166,11 @@ FAULTS: dict[str, tuple[dict[str, Any], list[str]]] = {
 @pytest.mark.parametrize("fault", FAULTS)
 def test_bad_earthquakes(fault: str, folder: Path) -> None:
     """Told with what is allowed; nothing is written."""
-    earthquake, told = FAULTS[fault]
+    earthquake, words = FAULTS[fault]
     np.savetxt(folder / "short.txt", [[0, 0.1, 0.1], [1, 0.2, 0]])
     with pytest.raises(ow.InputError) as error:
         run_case(case(folder, earthquake), folder / "out")
-    assert all(text in str(error.value) for text in told)
+    assert all(text in str(error.value) for text in words)
     assert not (folder / "out" / "summary.json").exists()
     assert not (folder / "out" / "results.nc").exists()
 

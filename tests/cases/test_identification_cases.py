@@ -28,7 +28,7 @@ def test_a_clamped_mudline_stands_still(oc6: ow.Turbine, asked: OperationalModes
     assert frequency == pytest.approx(computed, rel=0.02)
 
 
-def test_modes_that_are_missing_are_told_before_the_record(
+def test_modes_that_are_missing_are_reported_before_the_record(
     oc6: ow.Turbine, asked: OperationalModesSettings
 ) -> None:
     system = ow.build(oc6, "clamped", elements=8)

@@ -121,11 +121,11 @@ def test_rotor_case(rotor: tuple[dict[str, Any], Path], oc6: ow.Turbine) -> None
     assert summary["mean_thrust_N"] == pytest.approx(
         thrust_curve(oc6, np.array([9.0]))[0], rel=1e-9
     )
-    told = {row["label"]: row["ratio"] for row in summary["aerodynamic_damping"]}
+    reported = {row["label"]: row["ratio"] for row in summary["aerodynamic_damping"]}
     direct = aerodynamic_damping(ow.build(oc6, "clamped", elements=6), 9.0)
-    assert told["FA1"] == pytest.approx(direct.ratio[direct.label.index("FA1")], rel=1e-3)
-    assert told["FA1"] > 0.05
-    assert abs(told["SS1"]) < 1e-6
+    assert reported["FA1"] == pytest.approx(direct.ratio[direct.label.index("FA1")], rel=1e-3)
+    assert reported["FA1"] > 0.05
+    assert abs(reported["SS1"]) < 1e-6
     assert summary["mudline_moment_y_mean_Nm"] == pytest.approx(
         summary["mudline_moment_y_static_under_mean_loads_Nm"], rel=0.03
     )
@@ -135,15 +135,15 @@ def test_rotor_case(rotor: tuple[dict[str, Any], Path], oc6: ow.Turbine) -> None
     assert "aerodynamic" in (folder / "out" / "report.html").read_text().lower()
 
 
-def test_instant_control_above_rated_is_told(
+def test_instant_control_above_rated_is_reported(
     tmp_path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
     """There the thrust falls with the wind, the damping is negative, and the log says what follows."""
     load = ROTOR | {"wind_speed_m_per_s": 14.0, "control": "instant"}
     summary = run(tmp_path, load)
-    told = {row["label"]: row["ratio"] for row in summary["aerodynamic_damping"]}
-    assert told["FA1"] < 0
+    reported = {row["label"]: row["ratio"] for row in summary["aerodynamic_damping"]}
+    assert reported["FA1"] < 0
     assert "FA1 is fed by the thrust" in caplog.text
     lagged = run(tmp_path, ROTOR | {"wind_speed_m_per_s": 14.0, "inflow_lag": True})
-    told = {row["label"]: row["ratio"] for row in lagged["aerodynamic_damping"]}
-    assert told["FA1"] > 0.02
+    reported = {row["label"]: row["ratio"] for row in lagged["aerodynamic_damping"]}
+    assert reported["FA1"] > 0.02

@@ -166,7 +166,7 @@ def test_run_is_reproducible(offwind: Any, short_case: Path, tmp_path: Path) -> 
 def test_failed_solve_keeps_what_there_is(
     offwind: Any, short_case: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Exit status 3; time, step and joint are told; the histories so far are on disk."""
+    """Exit status 3; time, step and joint are reported; the histories so far are on disk."""
     honest = MorisonForce.time_inputs
 
     def failing(self: MorisonForce, time: Array, ramp_factor: Array) -> Array:
@@ -203,11 +203,11 @@ def test_interrupted_run_keeps_what_there_is(
     """Ctrl-C: exit status 130, and the histories so far on disk."""
     honest = case_run.simulate
 
-    told = []
+    reported = []
 
     def interrupted(*args: Any, **kwargs: Any) -> Any:
         def stop(now: float) -> None:
-            told.append(now)
+            reported.append(now)
             if now >= 5.0:
                 raise KeyboardInterrupt
 
@@ -219,8 +219,8 @@ def test_interrupted_run_keeps_what_there_is(
     assert "stopped" in err
     data = xr.load_dataset(tmp_path / "out" / "results.nc")
     assert data.attrs["status"] == "interrupted"
-    assert float(data["time"][-1]) == pytest.approx(told[-1])
-    assert 5.0 <= told[-1] < SHORT_CASE["analysis"]["duration_s"]
+    assert float(data["time"][-1]) == pytest.approx(reported[-1])
+    assert 5.0 <= reported[-1] < SHORT_CASE["analysis"]["duration_s"]
 
 
 def test_public_example(oc6: ow.Turbine) -> None:

@@ -52,7 +52,7 @@ def test_pile_of_two_walls(oc6: ow.Turbine) -> None:
     assert ow.modes(system).frequency_hz[0] == pytest.approx(whole.frequency_hz[0], rel=5e-3)
 
 
-def test_planes_of_a_symmetric_turbine_are_told_apart(symmetric: ow.Turbine) -> None:
+def test_planes_of_a_symmetric_turbine_are_distinguished(symmetric: ow.Turbine) -> None:
     """Where fore-aft and side-side are one, the modes still lie in the two planes, and are damped
     as asked."""
     for elements in (10, 13, None):

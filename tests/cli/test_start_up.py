@@ -99,7 +99,7 @@ def test_command_and_package_state_one_version(offwind: object) -> None:
     ],
 )
 def test_shell_completes_names(words: str, expected: set[str]) -> None:
-    """What a shell is told when the last word is completed."""
+    """Output to a shell when the last word is completed."""
     done = subprocess.run(
         [sys.executable, "-c", f"import sys; sys.argv = ['offwind']\n{RUN}"],
         capture_output=True,

@@ -96,7 +96,7 @@ def test_steps_are_limited() -> None:
 
 
 def test_no_root_is_not_converged() -> None:
-    """x^2 + 1 has no real root: the end is told after the allowed number of steps."""
+    """x^2 + 1 has no real root: the end is reported after the allowed number of steps."""
     result = newton(
         lambda x: x**2 + 1,
         solved(lambda x: np.diag(2 * x)),

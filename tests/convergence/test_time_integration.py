@@ -140,8 +140,8 @@ class HasNoSolution(Oscillator):
     ("system", "completed", "reason"),
     [(BreaksDown(), 10, NOT_FINITE), (HasNoSolution(), 4, DIVERGED)],
 )
-def test_failed_step_is_told(system: DenseEquations, completed: int, reason: int) -> None:
-    """The failed step and why are told; the steps before it stand, and its last finite residual."""
+def test_failed_step_is_reported(system: DenseEquations, completed: int, reason: int) -> None:
+    """The failed step and why are reported; the steps before it stand, and its last finite residual."""
     ended = attempt(system, np.zeros(1), np.zeros(1), Method(0.1, 0.9, 1.0), 20)
     assert (ended.completed, ended.reason) == (completed, reason)
     assert ended.error == np.inf

@@ -239,7 +239,7 @@ def _complaint(argv: list[str], monkeypatch: pytest.MonkeyPatch, capsys: Any) ->
 def test_turbine_fault(
     fault: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Any
 ) -> None:
-    """Each fault of a turbine file is told with file, field and remedy, and nothing is written."""
+    """Each fault of a turbine file is reported with file, field and remedy, and nothing is written."""
     change, expected = TURBINE_FAULTS[fault]
     data = copy.deepcopy(SHIPPED)
     change(data)
@@ -317,7 +317,7 @@ CURVE_FAULTS = {
 def test_curve_table_fault(
     fault: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Any
 ) -> None:
-    """Each fault of a p-y table is told with the table's name."""
+    """Each fault of a p-y table is reported with the table's name."""
     text, expected = CURVE_FAULTS[fault]
     data = copy.deepcopy(SHIPPED)
     _table_of_curves(data)
@@ -344,7 +344,7 @@ HISTORY_FAULTS = {
 def test_load_history_fault(
     fault: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Any
 ) -> None:
-    """Each fault of a tower-top load file is told with its name, and nothing is written."""
+    """Each fault of a tower-top load file is reported with its name, and nothing is written."""
     text, expected = HISTORY_FAULTS[fault]
     data = copy.deepcopy(CASE)
     data["tower_top_load"] = {"kind": "file", "file": "wind.txt"}
@@ -379,7 +379,7 @@ CASE_FAULTS: dict[str, tuple[Callable[[Definition], None], str]] = {
 def test_case_fault(
     fault: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Any
 ) -> None:
-    """Each fault of a case file is told, and nothing is written."""
+    """Each fault of a case file is reported, and nothing is written."""
     change, expected = CASE_FAULTS[fault]
     data = copy.deepcopy(CASE)
     change(data)
@@ -407,7 +407,7 @@ COMMAND_FAULTS = {
 def test_command_fault(
     fault: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Any
 ) -> None:
-    """Arguments that cannot be used are told, and nothing is written."""
+    """Arguments that cannot be used are reported, and nothing is written."""
     monkeypatch.chdir(tmp_path)
     argv, expected = COMMAND_FAULTS[fault]
     assert expected in _complaint(argv, monkeypatch, capsys)

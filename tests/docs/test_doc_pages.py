@@ -72,7 +72,7 @@ def unknown_names(page: str, known: Set[str]) -> list[str]:
     return found
 
 
-LOCAL = {"by_a", "by_v", "rnea"}
+LOCAL = {"da_dq", "dv_dq", "rnea"}
 """Names within a function, and Pinocchio's, that a page of the theory explains."""
 
 

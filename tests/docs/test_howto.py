@@ -107,13 +107,13 @@ def test_aliases_are_those_of_the_dataset() -> None:
     assert isinstance(history, xr.Dataset)
     page = (FOLDER / "compare_with_openfast.md").read_text()
     rows = dict(re.findall(r"^\| `(\w+)` \| (.*?) \|", page, flags=re.MULTILINE))
-    told = {name: re.findall(r"`(-?\w+)`", cell) for name, cell in rows.items()}
+    reported = {name: re.findall(r"`(-?\w+)`", cell) for name, cell in rows.items()}
     aliases = {
         name: channel.attrs["openfast_alias"].split()
         for name, channel in history.data_vars.items()
         if "openfast_alias" in channel.attrs
     }
-    assert told == aliases
+    assert reported == aliases
 
 
 def test_the_reader_can_stumble(folder: Path, run: Any) -> None:

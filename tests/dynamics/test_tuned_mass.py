@@ -325,10 +325,10 @@ def test_travel_is_watched(
         damper("any", 100.0, "both", **tuning),
     )
     data = let_go(ow.build(turbine, "clamped", elements=4), 45.0, 0.05, ow.SaveAt(0.1))
-    told = [record.getMessage() for record in caplog.records]
-    assert [text for text in told if "short" in text] == told
-    assert len(told) == 1
-    assert "0.2 m" in told[0]
+    reported = [record.getMessage() for record in caplog.records]
+    assert [text for text in reported if "short" in text] == reported
+    assert len(reported) == 1
+    assert "0.2 m" in reported[0]
     assert data["tuned_mass_travel"].sel(damper=["short", "long"]).values.tolist() == [0.2, 50.0]
     assert np.isinf(data["tuned_mass_travel"].sel(damper="any"))
 
@@ -391,11 +391,11 @@ def test_a_damper_on_a_clamped_base(undamped: ow.Turbine, element: Element) -> N
     for part in (slice(0, system.chain.axis_joints), sliding):
         assert relative_difference(found[part], expected[part]) < 1e-12
     rest = np.zeros(system.nv)
-    for by_v, by_a in ((0.0, 0.0), (111.0, 1.23e4)):
-        chain.factorise(row, state.q, rest, rest, by_v, by_a)
+    for dv_dq, da_dq in ((0.0, 0.0), (111.0, 1.23e4)):
+        chain.factorise(row, state.q, rest, rest, dv_dq, da_dq)
         inverse = np.array([chain.correction(unit) for unit in np.eye(system.nv)]).T
         stiffness, damping = equations.tangents(0.0, state.q, rest)
-        matrix = by_a * equations.mass(state.q) + by_v * damping + stiffness
+        matrix = da_dq * equations.mass(state.q) + dv_dq * damping + stiffness
         assert np.abs(matrix @ inverse - np.eye(system.nv)).max() < 1e-9
     cuts = np.array([system.chain.base, 20.0, 20.1, system.chain.top])
     record = chain.record(chain.sections(cuts), row, state.q, state.v, state.a)

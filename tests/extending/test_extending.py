@@ -90,7 +90,7 @@ def test_integrator_is_resumed_and_fails_like_any(tmp_path: Path) -> None:
 
         def step(self, chain: Any, time_inputs: Any, *state: Any) -> Any:
             if time_inputs[0] > self.fails_at:
-                raise ow.StepFailed("told to", time_inputs[0], state[1])
+                raise ow.StepFailed("as requested", time_inputs[0], state[1])
             return super().step(chain, time_inputs, *state)
 
     def simulate(folder: str, method: ow.Integrator) -> Any:
@@ -98,7 +98,7 @@ def test_integrator_is_resumed_and_fails_like_any(tmp_path: Path) -> None:
         return ow.simulate(system, 32.0, directory=tmp_path / folder, **settings).load()
 
     method = Stops()
-    with pytest.raises(ow.SolverError, match="told to") as failed:
+    with pytest.raises(ow.SolverError, match="as requested") as failed:
         simulate("stopped", method)
     assert failed.value.time == pytest.approx(30.02)
     assert failed.value.results["time"][-1] == 30.0

@@ -56,7 +56,7 @@ def test_few_files_know_a_part(part: str, names: tuple[str, ...], most: int) -> 
     assert 0 < len(found) <= most, found
 
 
-def test_mentions_are_told_from_prose() -> None:
+def test_mentions_are_distinguished_from_prose() -> None:
     """Negative control."""
     assert mentions(ast.parse("x = Thing(3)"), {"Thing"})
     assert mentions(ast.parse("kind = 'thing'"), {"thing"})

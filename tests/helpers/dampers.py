@@ -7,7 +7,7 @@ from offwind_pin.definitions.tuned_mass_damper import TunedMassDamper
 
 
 def damper(name: str, z: float, direction: str, mass: float = 2e5, **keys: Any) -> TunedMassDamper:
-    """A damper of 0.25 Hz and a tenth of critical, unless told otherwise."""
+    """A damper, by default of 0.25 Hz and a tenth of critical."""
     tuning = keys or {"frequency_hz": 0.25, "damping_ratio": 0.1}
     return TunedMassDamper.model_validate(
         {"name": name, "z_m": z, "mass_kg": mass, "direction": direction, **tuning}

@@ -50,9 +50,11 @@ class InTime:
     def residual(self, row: Array, q: Array, v: Array, a: Array) -> Array:
         return self.equations.residual(float(row[0]), q, v, a)
 
-    def factorise(self, row: Array, q: Array, v: Array, a: Array, by_v: float, by_a: float) -> None:
+    def factorise(
+        self, row: Array, q: Array, v: Array, a: Array, dv_dq: float, da_dq: float
+    ) -> None:
         stiffness, damping = self.equations.tangents(float(row[0]), q, v)
-        matrix = by_a * self.equations.mass(q) + by_v * damping + stiffness
+        matrix = da_dq * self.equations.mass(q) + dv_dq * damping + stiffness
         self._factors = lu_factor(matrix)
 
     def correction(self, residual: Array) -> Array:

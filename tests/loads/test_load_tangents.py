@@ -308,8 +308,8 @@ BLOCKS = {
     "inertia": ("force", ("acceleration",)),
     "turning": ("force", ("axis",)),
     "moment_coupling": ("moment", ("position", "displacement")),
-    "moment_stiffness": ("moment", ("turn",)),
-    "moment_damping": ("moment", ("spin",)),
+    "moment_stiffness": ("moment", ("rotation_vector",)),
+    "moment_damping": ("moment", ("angular_velocity",)),
 }
 """What each block of the tangents is a derivative of, and by which parts of the motion."""
 
@@ -321,8 +321,8 @@ NOT_THERE = [
         ("velocity",),
         ("acceleration",),
         ("axis",),
-        ("turn",),
-        ("spin",),
+        ("rotation_vector",),
+        ("angular_velocity",),
     )
     if (of, by) not in BLOCKS.values()
 ]
@@ -475,14 +475,15 @@ def conservative_error(load: Load, motion: PointMotion) -> float:
     in v, the force is the same with the acceleration in place of the velocity.
     """
     nothing = np.zeros_like(motion.velocity)
-    still = replace(motion, velocity=nothing, spin=nothing)
+    still = replace(motion, velocity=nothing, angular_velocity=nothing)
     result = load.forces(TIME, still, RISE)
     if isinstance(load, AddedMass):
         assert motion.acceleration is not None
         moving = replace(motion, velocity=motion.acceleration)
         return relative_difference(result.force, -energy_slope(load, moving, ("velocity",)))
     slopes = [
-        energy_slope(load, still, parts) for parts in (("position", "displacement"), ("turn",))
+        energy_slope(load, still, parts)
+        for parts in (("position", "displacement"), ("rotation_vector",))
     ]
     return relative_difference(np.hstack([result.force, result.moment]), -np.hstack(slopes))
 
@@ -512,12 +513,12 @@ def test_power_goes_into_store_or_heat(oc6: ow.Turbine, tmp_path: Path, name: st
     load = LOADS[name](oc6, tmp_path)
     motion = some_motion(load)
     result = load.forces(TIME, motion, RISE)
-    assert motion.spin is not None
+    assert motion.angular_velocity is not None
     slope = energy_slope(load, motion, ("position", "displacement"))
     gained = np.sum(slope * motion.velocity)
-    gained += np.sum(energy_slope(load, motion, ("turn",)) * motion.spin)
+    gained += np.sum(energy_slope(load, motion, ("rotation_vector",)) * motion.angular_velocity)
     gained += np.sum(energy_slope(load, motion, ("velocity",)) * motion.acceleration)
-    power = np.hstack([result.force * motion.velocity, result.moment * motion.spin])
+    power = np.hstack([result.force * motion.velocity, result.moment * motion.angular_velocity])
     worked, scale = -np.sum(power), np.sum(np.abs(power))
     assert abs(worked - gained - result.dissipation) < ENERGY_TOLERANCE * scale
     if name.startswith("soil") and not name.endswith("elastic"):

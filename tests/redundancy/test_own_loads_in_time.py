@@ -54,7 +54,7 @@ def test_python_and_compiled_load_are_one(coarse: ow.System) -> None:
     compiled = run(coarse, TowerTopLoad(top, history(), MEAN, "own"))
     in_python = run(coarse, FromHistory(top, "own", history(), MEAN))
     assert largest_difference(in_python, compiled) < 1e-13
-    # tower_top_load shows what acts as a tower-top load, which the Python one is not told to be
+    # tower_top_load shows what acts as a tower-top load, which the Python one is not declared to be
     assert np.ptp(compiled["energy_worked"].sel(source="own").to_numpy()) > 1e4
 
 

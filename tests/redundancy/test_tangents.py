@@ -241,7 +241,7 @@ def test_another_state_is_seen(in_waves: ow.System, state: State) -> None:
 
 
 STATIC, STEPPING = (0.0, 0.0), (111.0, 1.23e4)
-"""by_v, by_a of statics, and of a time step of about 0.02 s."""
+"""dv_dq, da_dq of statics, and of a time step of about 0.02 s."""
 INVERSE_TOLERANCE = 1e-8
 """Of the matrix times its inverse: rounding times condition numbers of up to 1e8."""
 
@@ -253,9 +253,9 @@ def inverse_error(
     rest, unit = np.zeros_like(q), np.eye(len(q))
     chain.factorise(chain.time_inputs(np.array([TIME]))[0], q, rest, rest, *factors)
     inverse = np.array([chain.correction(column) for column in unit]).T
-    equations, (by_v, by_a) = chain.equations(), dense
+    equations, (dv_dq, da_dq) = chain.equations(), dense
     stiffness, damping = equations.tangents(TIME, q, rest)
-    matrix = by_a * equations.mass(q) + by_v * damping + stiffness
+    matrix = da_dq * equations.mass(q) + dv_dq * damping + stiffness
     return float(np.abs(matrix @ inverse - unit).max())
 
 
@@ -270,7 +270,7 @@ def compiled(system: ow.System, *, springs: bool) -> CompiledChain:
 def test_compiled_iteration_matrix_at_rest(
     in_waves: ow.System, state: State, factors: tuple[float, float], *, springs: bool
 ) -> None:
-    """Factorised in O(N), by_a M + by_v D + K is the dense one: statics and time steps from rest."""
+    """Factorised in O(N), da_dq M + dv_dq D + K is the dense one: statics and time steps from rest."""
     chain = compiled(in_waves, springs=springs)
     assert inverse_error(chain, state.q, factors, factors) < INVERSE_TOLERANCE
 

@@ -1,4 +1,4 @@
-"""Steps that fail are halved, those that cannot be saved are told, adaptive ones meet a tolerance."""
+"""Steps that fail are halved, those that cannot be saved are reported, adaptive ones meet a tolerance."""
 
 import logging
 from itertools import pairwise
@@ -74,7 +74,7 @@ def test_halving_goes_through_a_kink(tower: ow.System, caplog: pytest.LogCapture
 
 
 def test_without_halving_it_fails(tower: ow.System) -> None:
-    """Negative control: the first of those steps is told with its time, joint and cause."""
+    """Negative control: the first of those steps is reported with its time, joint and cause."""
     with pytest.raises(ow.SolverError, match="did not converge") as caught:
         run(tower, FixedStep(OUTPUT, halvings=0))
     error = caught.value
@@ -115,7 +115,7 @@ def test_results_before_a_failure_are_kept(tower: ow.System) -> None:
 
 
 @pytest.mark.parametrize("policy", [FixedStep(0.05), AdaptiveStep(1e-5)], ids=["fixed", "adaptive"])
-def test_what_no_step_can_mend_is_told(
+def test_what_no_step_can_mend_is_reported(
     tower: ow.System, policy: StepPolicy, tmp_path: Path
 ) -> None:
     """A force that is not a number after 1 s ends the run there, however small the steps.
@@ -240,7 +240,7 @@ def test_smooth_motion_meets_its_tolerance(coarse: ow.System) -> None:
     assert np.all(errors[-1] < 2e-4)
 
 
-def test_tolerance_out_of_reach_is_told(tower: ow.System) -> None:
+def test_tolerance_out_of_reach_is_reported(tower: ow.System) -> None:
     """With a smallest step that the impact does not bear, the run ends there and says why."""
     with pytest.raises(ow.SolverError, match="local error") as caught:
         run(tower, AdaptiveStep(1e-6, smallest=0.005))

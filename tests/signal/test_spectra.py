@@ -39,7 +39,7 @@ def test_density_does_not_depend_on_the_segment() -> None:
 
 
 def test_segment_longer_than_the_signal_is_refused() -> None:
-    """Too short a signal is told, with its length."""
+    """Too short a signal is reported, with its length."""
     with pytest.raises(InputError, match="segment"):
         power_spectral_density(TIME[:100], STEP, SEGMENT)
 

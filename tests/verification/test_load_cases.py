@@ -172,7 +172,7 @@ def test_lc51_halving_the_step(lc51: tuple[dict[str, Any], Path], tmp_path: Path
     )
 
 
-def test_a_structure_that_does_not_settle_is_told(
+def test_a_structure_that_does_not_settle_is_reported(
     undamped: ow.Turbine, caplog: pytest.LogCaptureFixture
 ) -> None:
     """Clamped, dry and without damping it swings on."""

@@ -80,7 +80,7 @@ def mass_ratios(result: ModalResult, linear: CompiledPencil, chain: Chain) -> Ar
         for load in loads:
             rate = linear.axis_shape(vector, load.height)
             still = np.zeros((len(rate), 3))
-            motion = PointMotion(still, still, rate[:, :3], still, spin=rate[:, 3:])
+            motion = PointMotion(still, still, rate[:, :3], still, angular_velocity=rate[:, 3:])
             power[i] += load.forces(0.0, motion, 0.0).dissipation
     return np.asarray(power / (4 * np.pi * result.frequency_hz))
 

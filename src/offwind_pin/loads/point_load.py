@@ -24,13 +24,13 @@ from offwind_pin.base.descriptions import one_line
 from offwind_pin.base.fingerprint import content_hash
 from offwind_pin.base.kernels import ExchangeableKernel, exchangeable
 
-POSITION, DISPLACEMENT, VELOCITY, AXIS, ACCELERATION, TURN, SPIN = (
+POSITION, DISPLACEMENT, VELOCITY, AXIS, ACCELERATION, ROTATION, ANGULAR_VELOCITY = (
     slice(3 * i, 3 * i + 3) for i in range(7)
 )
 """Columns of the motion of points, (n, 21)."""
 
 BY_POSITION, BY_VELOCITY, BY_ACCELERATION, BY_AXIS = range(4)
-MOMENT_BY_POSITION, MOMENT_BY_TURN, MOMENT_BY_SPIN = range(4, 7)
+MOMENT_BY_POSITION, MOMENT_BY_ROTATION, MOMENT_BY_ANGULAR_VELOCITY = range(4, 7)
 """Indices of the derivatives of force and moment in the tangents of a point, (7, 3, 3)."""
 
 _MATRIX = types.float64[:, ::1]
@@ -49,7 +49,7 @@ tangent_kernel = exchangeable(types.void(_MATRIX, _MATRIX, _ROW, _ROW, types.flo
 """Decorator for ``kernel(motion, constants, time_inputs, memory, blocks)``.
 
 blocks (n, 7, 3, 3), zero at the start, is set to the derivatives of the force by position,
-velocity, acceleration and axis, and of the moment by position, turn and spin.
+velocity, acceleration and axis, and of the moment by position, rotation and angular velocity.
 """
 
 energy_kernel = exchangeable(types.float64(_MATRIX, _MATRIX, _ROW))
@@ -96,10 +96,10 @@ class PointMotion:
         Unit vectors along the deflected axis, upwards.
     acceleration : (n, 3) array or None, m/s2
         At rest unless given.
-    turn : (n, 3) array or None, rad
+    rotation_vector : (n, 3) array or None, rad
         Rotation of the section, the axial vector of its orientation's skew part (its size is the
         sine of the angle); none unless given.
-    spin : (n, 3) array or None, rad/s
+    angular_velocity : (n, 3) array or None, rad/s
         Angular velocity of the section, none unless given.
     """
 
@@ -108,8 +108,8 @@ class PointMotion:
     velocity: Array
     axis: Array
     acceleration: Array | None = None
-    turn: Array | None = None
-    spin: Array | None = None
+    rotation_vector: Array | None = None
+    angular_velocity: Array | None = None
 
     __repr__ = one_line
 
@@ -576,11 +576,11 @@ def dissipated_power(load: KernelLoad, blocks: Array, rate: Array) -> float:
     blocks : (n, 7, 3, 3) array
         Derivatives of forces and moments at its points.
     rate : (n, 6) array, m/s and rad/s
-        Velocity and spin of its points.
+        Velocity and angular_velocity of its points.
     """
-    velocity, spin = rate[:, :3], rate[:, 3:]
+    velocity, angular_velocity = rate[:, :3], rate[:, 3:]
     power = -np.einsum("ni,nij,nj", velocity, blocks[:, BY_VELOCITY], velocity)
-    power -= np.einsum("ni,nij,nj", spin, blocks[:, MOMENT_BY_SPIN], spin)
+    power -= np.einsum("ni,nij,nj", angular_velocity, blocks[:, MOMENT_BY_ANGULAR_VELOCITY], angular_velocity)
     if load.coupling is not None:
         wrench, damper = load.coupling
         power += np.sum(damper * np.einsum("knj,nj->k", wrench, rate) ** 2)

@@ -15,11 +15,11 @@ from offwind_pin.base.channels import Channel
 from offwind_pin.base.definition import Array
 from offwind_pin.loads.point_load import (
     ACCELERATION,
+    ANGULAR_VELOCITY,
     AXIS,
     DISPLACEMENT,
     POSITION,
-    SPIN,
-    TURN,
+    ROTATION,
     VELOCITY,
     KernelLoad,
     PointForces,
@@ -165,6 +165,6 @@ def _motion(columns: Array) -> PointMotion:
         columns[:, VELOCITY],
         columns[:, AXIS],
         columns[:, ACCELERATION],
-        columns[:, TURN],
-        columns[:, SPIN],
+        columns[:, ROTATION],
+        columns[:, ANGULAR_VELOCITY],
     )

@@ -95,7 +95,7 @@ def test_load_about_another_axis_turns_the_matrix(system: ow.System) -> None:
 
 
 def test_symmetry_defect_grows_with_the_moment(system: ow.System, loaded: ow.StaticResult) -> None:
-    """It is the moment over the rotational stiffness: small, and told."""
+    """It is the moment over the rotational stiffness: small, and reported."""
     one = condense(system, loaded)
     assert one.symmetry_defect == pytest.approx(
         abs(one.load[4]) / np.sqrt(one.stiffness[3, 3] * one.stiffness[5, 5]), rel=0.1

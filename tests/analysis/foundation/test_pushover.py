@@ -55,12 +55,12 @@ def test_rigid_pile_in_plastic_soil_fails_as_broms_says(arm: float) -> None:
     assert found.load[-2:] == pytest.approx(_failure_load(arm), rel=1e-2)
 
 
-def test_a_load_that_the_soil_cannot_bear_is_told() -> None:
+def test_a_load_that_the_soil_cannot_bear_is_reported() -> None:
     """The error says how far it came, and holds the states up to there."""
     failure = _failure_load(10.0)
-    with pytest.raises(ow.SolverError, match="the soil fails") as told:
+    with pytest.raises(ow.SolverError, match="the soil fails") as reported:
         pushover(RIGID.turbine(101, PLASTIC), 10.0, until_load=1.5 * failure, points=30)
-    so_far = told.value.results
+    so_far = reported.value.results
     assert 0.9 * failure < so_far.load[-1] < 1.01 * failure
     assert len(so_far.displacement) == len(so_far.load)
     assert np.all(np.diff(so_far.displacement) > 0)

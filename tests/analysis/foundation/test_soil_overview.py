@@ -192,7 +192,7 @@ def test_linear_macro_element_is_its_6x6() -> None:
     assert_allclose(turned, displacement / moved[0] * moved[4], rtol=1e-9, atol=1e-15)
 
 
-def test_damping_of_the_turbine_is_told(overview: ow.SoilOverview) -> None:
+def test_damping_of_the_turbine_is_reported(overview: ow.SoilOverview) -> None:
     """The shipped turbine has a secant dashpot; the others are made of its factor and curve."""
     assert overview.damping_model == "secant_dashpot"
     assert list(overview.damping) == ["secant_dashpot", "initial_dashpot", "sliders"]
@@ -428,7 +428,7 @@ def test_arguments_that_cannot_be_used(arguments: list[str], says: str, offwind:
     [
         (lambda data: data.drop_vars("displacement"), "displacement over time"),
         (lambda data: data.assign_attrs(turbine="another"), "of turbine another"),
-        (lambda data: data.assign_attrs(definition_sha256="0"), "of another oc6_phase2"),
+        (lambda data: data.assign_attrs(definition_sha256="0"), "of a changed oc6_phase2"),
         (lambda data: data.sel(height=data.height >= -30.0), "down to"),
         (lambda data: data.assign_attrs(ramp_s=1e3), "ramp"),
     ],

@@ -1,4 +1,4 @@
-"""Identification: known numbers come back, open ones are called open, bounds are told."""
+"""Identification: known numbers come back, open ones are called open, bounds are reported."""
 
 from __future__ import annotations
 
@@ -110,7 +110,7 @@ def test_one_frequency_does_not_determine_two_numbers(
     assert np.abs(along).max() < 1e-9 * np.abs(found.jacobian).max()
 
 
-def test_a_bound_that_holds_a_number_is_told(undamped: ow.Turbine, truth: ow.Turbine) -> None:
+def test_a_bound_that_holds_a_number_is_reported(undamped: ow.Turbine, truth: ow.Turbine) -> None:
     """The truth is softer than the lower bound: that is where the fit ends, targets unmet."""
     stiff = Parameter(GRADIENT.path, 1e8, 1e9)
     found = _identify(truth, [_frequency(truth, "FA1", 1e-4)], stiff)

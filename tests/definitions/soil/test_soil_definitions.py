@@ -230,7 +230,7 @@ FAULTS: dict[str, tuple[dict[str, Any], str, str]] = {
 
 @pytest.mark.parametrize("fault", FAULTS)
 def test_fault_of_a_curve(fault: str, tmp_path: Path) -> None:
-    """Each fault is told with its field and the likely mistake."""
+    """Each fault is reported with its field and the likely mistake."""
     curve, field, text = FAULTS[fault]
     with pytest.raises(InputError) as caught:
         turbine(tmp_path, curve=curve)
@@ -299,7 +299,7 @@ SPRING_FAULTS: dict[str, tuple[dict[str, Any], str]] = {
 
 @pytest.mark.parametrize("fault", SPRING_FAULTS)
 def test_fault_of_springs(fault: str, tmp_path: Path) -> None:
-    """Each fault is told with what to do."""
+    """Each fault is reported with what to do."""
     change, text = SPRING_FAULTS[fault]
     with pytest.raises(InputError, match="distributed_springs") as caught:
         turbine(tmp_path, **({"dashpot": None} | change))

@@ -76,18 +76,18 @@ def test_picture_reaches_the_apparent_fixity(systems: dict[str, ow.System]) -> N
     assert lowest <= system.chain.base
 
 
-def test_statics_are_told_apart(systems: dict[str, ow.System]) -> None:
+def test_statics_are_distinguished(systems: dict[str, ow.System]) -> None:
     """Each foundation in a sentence that can be read."""
     states = {name: (system, ow.static(system)) for name, system in systems.items()}
     report = results(systems["clamped"], statics=states).report()
-    told = " ".join(static_increases(report))
+    reported = " ".join(static_increases(report))
     for text in (
         "with apparent fixity below the mudline than clamped at the mudline",
         "on coupled springs at the mudline than",
         "on distributed springs than",
         "on a macro-element at the mudline than",
     ):
-        assert text in told
+        assert text in reported
 
 
 def test_lateral_springs_alone_are_drawn(undamped: ow.Turbine) -> None:

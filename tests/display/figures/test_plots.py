@@ -255,7 +255,7 @@ class TestMomentPsd:
             assert list(line.get_xdata()) == [frequency, frequency]
             assert f"{name}\n{frequency:.3f}" in texts(axes)
 
-    def test_modes_and_excitations_are_told_apart(self) -> None:
+    def test_modes_and_excitations_are_distinguished(self) -> None:
         axes = psd_figure().axes[0]
         color = {
             name: with_id(axes, f"mark {name}")[0].get_color()

@@ -288,7 +288,7 @@ class TestContents:
 
 
 class TestSurrogates:
-    def test_are_told_with_their_reasons(self, coarse: ow.System, page: Page) -> None:
+    def test_are_listed_with_their_reasons(self, coarse: ow.System, page: Page) -> None:
         assert coarse.foundation.surrogate is not None
         assert " ".join(coarse.foundation.surrogate.split()) in page.text
         wind = ow.SyntheticWind(9.06, 0.388)
@@ -458,11 +458,11 @@ def test_the_sea_is_named_with_all_that_acts(undamped: ow.Turbine) -> None:
     assert sea_in_words(system) == plain.in_words
     current = ow.UniformCurrent(0.5, 90.0)
     sea = ow.RegularWaves(2.0, 8.0, current=current, water_level=1.5, stretching="wheeler")
-    told = sea_in_words(ow.build(undamped, "clamped", sea, elements=4))
-    assert "z = 1.5 m" in told
-    assert "wheeler" in told
-    assert "0.5 m/s" in told
-    assert "90" in told
+    reported = sea_in_words(ow.build(undamped, "clamped", sea, elements=4))
+    assert "z = 1.5 m" in reported
+    assert "wheeler" in reported
+    assert "0.5 m/s" in reported
+    assert "90" in reported
 
 
 def test_rounding_is_no_number(full: Results) -> None:

@@ -236,12 +236,12 @@ class TestPage:
         assert motion["sea"] == same["sea"]
         assert motion["time"] == same["time"]
 
-    def test_surrogates_are_told(self, histories: dict[str, xr.Dataset]) -> None:
+    def test_surrogates_are_reported(self, histories: dict[str, xr.Dataset]) -> None:
         data = histories["regular"]
         assert data.attrs["surrogates"] == "none"
         assert "Surrogate data" not in render_time_history(data, 5.0, 2.0)
-        told = data.assign_attrs(surrogates="soil made up | load made up")
-        text = render_time_history(told, 5.0, 2.0)
+        reported = data.assign_attrs(surrogates="soil made up | load made up")
+        text = render_time_history(reported, 5.0, 2.0)
         assert "Soil made up." in text
         assert "Load made up." in text
 

@@ -99,11 +99,11 @@ class TestShapes:
         assert [shown.label[i] for i in shown.chosen(["T1", "FA1"], 4)] == ["T1", "FA1"]
 
     @pytest.mark.parametrize(
-        ("labels", "told"),
+        ("labels", "message"),
         [(["FA9"], "FA9"), (["FA1", "FA1"], "different"), ([""], "modes"), (["FA1"] * 5, "1 to 4")],
     )
-    def test_others_are_refused(self, modal: xr.Dataset, labels: list[str], told: str) -> None:
-        with pytest.raises(ow.InputError, match=told):
+    def test_others_are_refused(self, modal: xr.Dataset, labels: list[str], message: str) -> None:
+        with pytest.raises(ow.InputError, match=message):
             shapes(modal).chosen(labels, 4)
 
     def test_modes_that_hold_no_outline(self, modal: xr.Dataset) -> None:
@@ -196,16 +196,16 @@ class TestStills:
 
 class TestFilms:
     def test_frames_are_numbered_and_of_one_size(self, modal: xr.Dataset, tmp_path: Path) -> None:
-        told: list[tuple[int, int]] = []
+        calls: list[tuple[int, int]] = []
         View(modal, duration=0.5, labels=["FA1"]).film(
-            tmp_path / "film", 6, lambda *count: told.append(count)
+            tmp_path / "film", 6, lambda *count: calls.append(count)
         )
         names = sorted(path.name for path in (tmp_path / "film").iterdir())
         assert names == ["frame_00001.png", "frame_00002.png", "frame_00003.png"]
         images = [matplotlib.image.imread(tmp_path / "film" / name) for name in names]
         assert {image.shape[:2] for image in images} == {(720, 1280)}
         assert np.abs(images[0] - images[2]).max() > 0.3
-        assert told == [(1, 3), (2, 3), (3, 3)]
+        assert calls == [(1, 3), (2, 3), (3, 3)]
         assert [path.name for path in tmp_path.iterdir()] == ["film"]
 
     def test_nothing_is_left_of_half_a_film(self, modal: xr.Dataset, tmp_path: Path) -> None:
@@ -267,11 +267,11 @@ class TestView:
         assert "soil on the pile" not in older
         assert "bending moment" in older
 
-    def test_loads_that_the_channel_does_not_hold_are_told(self, history: xr.Dataset) -> None:
+    def test_loads_that_the_channel_does_not_hold_are_reported(self, history: xr.Dataset) -> None:
         note = "prescribed loads, which exclude the thrust of the rotor"
-        told = history.assign_attrs(tower_top_load_holds=note)
-        assert note in unescape(View(told, 4.0, 4.0).page())
-        without = told.assign(tower_top_load=0 * told.tower_top_load)
+        noted = history.assign_attrs(tower_top_load_holds=note)
+        assert note in unescape(View(noted, 4.0, 4.0).page())
+        without = noted.assign(tower_top_load=0 * noted.tower_top_load)
         page = View(without, 4.0, 4.0).page()
         assert note in unescape(page)
         assert "applied tower-top load" not in page
@@ -342,7 +342,7 @@ class TestCommand:
             offwind("view", "oc6_phase2", "--html", str(tmp_path / "a.html"))
 
     @pytest.mark.parametrize(
-        ("words", "told"),
+        ("words", "message"),
         [
             (["nowhere", "--html", "a.html"], "nowhere"),
             (["nowhere.nc", "--html", "a.html"], "nowhere.nc"),
@@ -362,7 +362,12 @@ class TestCommand:
         ],
     )
     def test_bad_input(
-        self, offwind: Any, run: Path, monkeypatch: pytest.MonkeyPatch, words: list[str], told: str
+        self,
+        offwind: Any,
+        run: Path,
+        monkeypatch: pytest.MonkeyPatch,
+        words: list[str],
+        message: str,
     ) -> None:
         """Exit status 2, one message that says what is wrong, and no file."""
         monkeypatch.chdir(run)
@@ -374,6 +379,6 @@ class TestCommand:
         before = sorted(Path.cwd().rglob("*"))
         code, _, err = offwind("view", *words)
         assert code == 2, err
-        assert told in err
+        assert message in err
         assert "Traceback" not in err
         assert sorted(Path.cwd().rglob("*")) == before

@@ -126,7 +126,7 @@ def test_truncated_anywhere(tmp_path: Path, kind: int) -> None:
 
 
 @pytest.mark.parametrize(
-    ("place", "raw", "told"),
+    ("place", "raw", "message"),
     [
         (0, struct.pack("<h", 9), "FileID"),
         (0, struct.pack("<h", 0), "FileID"),
@@ -146,11 +146,11 @@ def test_truncated_anywhere(tmp_path: Path, kind: int) -> None:
         (100, b"\x07", "names"),
     ],
 )
-def test_header_fields_are_checked(tmp_path: Path, place: int, raw: bytes, told: str) -> None:
+def test_header_fields_are_checked(tmp_path: Path, place: int, raw: bytes, message: str) -> None:
     """Every field of the header, out of its bounds, is named."""
     path, whole = binary(tmp_path)
     path.write_bytes(whole[:place] + raw + whole[place + len(raw) :])
-    with pytest.raises(ow.InputError, match=told):
+    with pytest.raises(ow.InputError, match=message):
         from_channels(read_openfast_output(path), DEFAULT)
 
 
@@ -253,7 +253,7 @@ def test_closing_line(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("change", "told"),
+    ("change", "message"),
     [
         (lambda text: "", "no line that starts with Time"),
         (lambda text: text.replace("Time", "Zeit"), "no line that starts with Time"),
@@ -266,17 +266,17 @@ def test_closing_line(tmp_path: Path) -> None:
         (lambda text: text.replace("(kN)", "(kp)", 1), "YawBrFxp, unit"),
     ],
 )
-def test_bad_text(tmp_path: Path, change: object, told: str) -> None:
-    """What is wrong with a text file is told with its line or channel."""
+def test_bad_text(tmp_path: Path, change: object, message: str) -> None:
+    """What is wrong with a text file is reported with its line or channel."""
     path = tmp_path / "run.out"
     write_out(path, TIME, YAW_BEARING, UNITS, some_load(TIME))
     path.write_text(change(path.read_text()))  # type: ignore[operator]
-    with pytest.raises(ow.InputError, match=told):
+    with pytest.raises(ow.InputError, match=message):
         from_channels(read_openfast_output(path), DEFAULT)
 
 
 def test_gap_and_unknown_channel(tmp_path: Path) -> None:
-    """Missing rows are told with the lines around them, a misspelt channel with its neighbours."""
+    """Missing rows are reported with the lines around them, a misspelt channel with its neighbours."""
     path = tmp_path / "run.out"
     keep = np.r_[0:100, 140 : len(TIME)]
     write_out(path, TIME[keep], YAW_BEARING, UNITS, some_load(TIME)[keep])
@@ -288,13 +288,13 @@ def test_gap_and_unknown_channel(tmp_path: Path) -> None:
 
 
 def test_a_run_that_diverged(tmp_path: Path) -> None:
-    """Loads that no turbine gives, and values that are no numbers, are told with their step."""
-    for value, told in ((1e9, "time step 31, Fy"), (np.nan, "YawBrFyp, time step 31")):
+    """Loads that no turbine gives, and values that are no numbers, are reported with their step."""
+    for value, message in ((1e9, "time step 31, Fy"), (np.nan, "YawBrFyp, time step 31")):
         data = some_load(TIME)
         data[30, 1] = value
         path = tmp_path / "run.outb"
         write_outb(path, 3, TIME, YAW_BEARING, UNITS, data)
-        with pytest.raises(ow.InputError, match=told):
+        with pytest.raises(ow.InputError, match=message):
             from_channels(read_openfast_output(path), DEFAULT)
 
 
@@ -354,15 +354,15 @@ def test_weight_is_taken_off_once(oc6: ow.Turbine) -> None:
 
 
 def test_cautions(oc6: ow.Turbine) -> None:
-    """kN for N, a thousand too much, and the weight are each told; a sound load is not."""
+    """kN for N, a thousand too much, and the weight are each reported; a sound load is not."""
     gravity = 9.80665
     weight = weight_at_yaw_bearing(oc6.rna, gravity)[2]
-    told = {
+    histories = {
         "kN": constant(1000, 0, 0, 0, 0, 0),
         "twice": constant(1e9, 0, 0, 0, 0, 0),
         "subtract_weight": constant(1e6, 0, 1.02 * weight, 0, 0, 0),
     }
-    for word, history in told.items():
+    for word, history in histories.items():
         found = load_cautions(history, oc6.rna, gravity)
         assert len(found) == 1
         assert word in found[0]
@@ -375,7 +375,7 @@ def test_cautions(oc6: ow.Turbine) -> None:
 
 
 def test_superposition() -> None:
-    """Histories add up over the time that all cover, the coarser one interpolated, and that is told."""
+    """Histories add up over the time that all cover, the coarser one interpolated, and that is reported."""
     fine = ow.LoadHistory(np.arange(0, 10.01, 0.1), np.ones((101, 6)), "fine")
     ramp = np.arange(2.0, 13.0)
     coarse = ow.LoadHistory(ramp, np.tile(ramp[:, None], (1, 6)), "coarse")
@@ -392,7 +392,7 @@ def test_superposition() -> None:
         superpose([fine, changed(fine, 1.0, 50.0, None)])
 
 
-def test_resampling_is_told() -> None:
+def test_resampling_is_reported() -> None:
     """A step other than dt is noted; one too coarse for 1.5 Hz, or much finer than dt, is a caution."""
 
     def sampled(step: float) -> ow.LoadHistory:

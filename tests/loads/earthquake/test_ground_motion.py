@@ -147,8 +147,8 @@ FAULTS: dict[str, tuple[Callable[[], object], str]] = {
 
 @pytest.mark.parametrize("fault", FAULTS)
 def test_bad_motions(fault: str) -> None:
-    make, told = FAULTS[fault]
-    with pytest.raises(ow.InputError, match=told):
+    make, message = FAULTS[fault]
+    with pytest.raises(ow.InputError, match=message):
         make()
 
 
@@ -166,25 +166,25 @@ def test_bad_motions_of_a_simulation(clamped_dry: ow.System, coarse: ow.System) 
 
 
 def test_cautions(caplog: pytest.LogCaptureFixture, clamped_dry: ow.System) -> None:
-    """Each on its own, told in the log and in the results; a good record has none."""
+    """Each on its own, reported in the log and in the results; a good record has none."""
     good = shaking(6.0, 0.01)
     assert ground_motion_cautions(good, 0.01, 10.0) == []
 
-    def told(motion: ow.GroundMotion, dt: float = 0.01, duration: float = 10.0) -> str:
+    def cautions_of(motion: ow.GroundMotion, dt: float = 0.01, duration: float = 10.0) -> str:
         (caution,) = ground_motion_cautions(motion, dt, duration)
         return caution
 
-    assert "skip samples" in told(good, dt=0.02)
-    assert "ends at 6 s" in told(good, duration=5.0)
-    assert "begins at -1 s" in told(good.later(-1.0))
-    assert "coarse" in told(shaking(6.0, 0.05))
+    assert "skip samples" in cautions_of(good, dt=0.02)
+    assert "ends at 6 s" in cautions_of(good, duration=5.0)
+    assert "begins at -1 s" in cautions_of(good.later(-1.0))
+    assert "coarse" in cautions_of(shaking(6.0, 0.05))
     drifting = replace(good, acceleration=good.acceleration + np.array([0.05, 0, 0]))
-    assert "still moves at 0.3" in told(drifting)
-    assert "only zeros" in told(good.scaled(0.0))
+    assert "still moves at 0.3" in cautions_of(drifting)
+    assert "only zeros" in cautions_of(good.scaled(0.0))
     crooked = replace(drifting, baseline="parabolic").scaled(0.1)
     assert ground_motion_cautions(crooked, 0.01, 10.0) == []
     crooked = replace(good, acceleration=good.acceleration + 0.6, baseline="parabolic")
-    assert "removes 18%" in told(crooked)
+    assert "removes 18%" in cautions_of(crooked)
     data = ow.simulate(clamped_dry, 0.2, 0.1, ground_motion=good.later(-3.0))
     assert "skip samples" in caplog.text
     assert "ends at 3 s" in data.attrs["ground_motion_cautions"]
@@ -208,7 +208,7 @@ def columns(path: Path, values: Array, head: str = "# t, accelerations\n") -> Pa
 
 
 def test_columns(tmp_path: Path) -> None:
-    """Axes and unit as told; comments and separators do not matter."""
+    """Axes and unit as given; comments and separators do not matter."""
     table = np.array([[0, 0.1, 0.2], [0.01, -0.3, 0.0], [0.02, 0.0, 0.1]])
     record = read_columns(columns(tmp_path / "a.txt", table), "g", ("z", "x"))
     assert record.time == pytest.approx(table[:, 0])
@@ -385,6 +385,6 @@ FILE_FAULTS: dict[str, tuple[Callable[[Path], object], str]] = {
 
 @pytest.mark.parametrize("fault", FILE_FAULTS)
 def test_bad_files(fault: str, tmp_path: Path) -> None:
-    read, told = FILE_FAULTS[fault]
-    with pytest.raises(ow.InputError, match=told):
+    read, message = FILE_FAULTS[fault]
+    with pytest.raises(ow.InputError, match=message):
         read(tmp_path)

@@ -1,4 +1,4 @@
-"""Seas in a case file that cannot be used: each is told, with its place, and nothing is written."""
+"""Seas in a case file that cannot be used: each is reported, with its place, and nothing is written."""
 
 from __future__ import annotations
 

@@ -247,7 +247,7 @@ def test_a_current_across_changes_nothing() -> None:
     assert np.array_equal(carried.wave_number, plain.wave_number)
 
 
-def test_blocked_waves_are_left_out_and_told() -> None:
+def test_blocked_waves_are_left_out_and_reported() -> None:
     """Above the blocking frequency nothing is left; all draws below it are those of the whole sea."""
     against = sea(doppler=True, current=ow.UniformCurrent(1.6, 180.0))
     waves, plain = against.waves(DEPTH, GRAVITY), realised()
@@ -368,16 +368,16 @@ def test_whole_spectrum_at_another_depth() -> None:
 
 
 def test_seas_in_words() -> None:
-    """A reader is told of every option, and of none that is left out."""
+    """The description contains every option given, and no other."""
     assert sea().in_words == "JONSWAP (gamma 3.3) waves, Hs 6 m, Tp 10 s"
-    told = sea(
+    reported = sea(
         amplitudes="random",
         spreading=ow.Spreading("cos_2s", 8.0),
         doppler=True,
         current=ow.UniformCurrent(0.5),
         crest=ow.Crest(5.0, 20.0),
     ).in_words
-    assert told == (
+    assert reported == (
         "JONSWAP (gamma 3.3) waves, Hs 6 m, Tp 10 s, carried by the current, random amplitudes, "
         "spread by cos^2s(theta/2), s = 8, a crest of 5 m at 20 s"
     )

@@ -1,4 +1,4 @@
-"""Replay of a measured surface: the record comes back, and what is done to it is told."""
+"""Replay of a measured surface: the record comes back, and its processing is reported."""
 
 from __future__ import annotations
 
@@ -83,12 +83,12 @@ def test_cuts_take_away_what_they_say() -> None:
     sea = ow.MeasuredWaves(
         ow.SurfaceRecord.of(TIME, wanted + swell + ripple, "here"), 0.03, 1.0, taper=0.0
     )
-    told = sea.cautions(sea.waves(DEPTH, GRAVITY))
+    reported = sea.cautions(sea.waves(DEPTH, GRAVITY))
     share = (0.5**2 + 0.2**2) / 2 / np.var(wanted + swell + ripple)
-    assert any(f"remove {100 * share:.2g} %" in text for text in told)
+    assert any(f"remove {100 * share:.2g} %" in text for text in reported)
 
 
-def test_mean_and_trend_are_told() -> None:
+def test_mean_and_trend_are_reported() -> None:
     """Both are taken off, and named in metres."""
     record = ow.SurfaceRecord.of(TIME + 5.0, surface() + 0.7 + 1e-3 * TIME, "here")
     notes = " ".join(ow.MeasuredWaves(record, 0.03, 1.0).notes())
@@ -112,7 +112,7 @@ def test_files(tmp_path: Path, between: str, header: str) -> None:
     assert not record.resampled
 
 
-def test_uneven_times_are_interpolated_and_told(tmp_path: Path) -> None:
+def test_uneven_times_are_interpolated_and_reported(tmp_path: Path) -> None:
     """Jittered times are put on even ones; times rounded in the file are taken as even."""
     jitter = TIME + 0.05 * np.sin(np.arange(COUNT))
     exact = np.interp(jitter, TIME, surface())
@@ -126,7 +126,7 @@ def test_uneven_times_are_interpolated_and_told(tmp_path: Path) -> None:
 
 
 def test_direction_and_current_reach_the_waves() -> None:
-    """The record's waves go where they are told to, on the current if asked."""
+    """The record's waves have the given direction, and the current if requested."""
     record = ow.SurfaceRecord.of(TIME, surface(), "here")
     flow = {"doppler": True, "current": ow.UniformCurrent(1.0, 90.0)}
     waves = ow.MeasuredWaves(record, 0.03, 0.5, 90.0, **flow).waves(DEPTH, GRAVITY)  # type: ignore[arg-type]

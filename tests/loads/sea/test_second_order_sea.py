@@ -1,4 +1,4 @@
-"""Seas of second order, as they are asked for: in Python and in case files, and what is told of them."""
+"""Seas of second order, in Python and in case files, and the facts reported about them."""
 
 from __future__ import annotations
 
@@ -64,13 +64,13 @@ def test_what_it_cannot_do_is_refused() -> None:
 
 
 def test_facts_and_cautions(oc6: ow.Turbine) -> None:
-    """The realised sea is told of with its bound part; waves too long and high are cautioned."""
+    """Facts of the realised sea include its bound part; waves too long and high have cautions."""
     linear, second = (wave_facts(ow.build(oc6, "coupled_springs", sea(order))) for order in (1, 2))
     assert second["highest_crest_m"] > 1.02 * linear["highest_crest_m"]
     assert second["significant_height_m"] == pytest.approx(linear["significant_height_m"], rel=0.02)
     long = ow.RegularWaves(8.0, 16.0, order=2)
-    told = wave_facts(ow.build(oc6, "coupled_springs", long))["cautions"]
-    assert "secondary crests in the troughs" in told[0]
+    reported = wave_facts(ow.build(oc6, "coupled_springs", long))["cautions"]
+    assert "secondary crests in the troughs" in reported[0]
     milder = ow.RegularWaves(3.0, 8.0, order=2)
     assert wave_facts(ow.build(oc6, "coupled_springs", milder))["cautions"] == []
 

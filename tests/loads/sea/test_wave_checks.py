@@ -1,4 +1,4 @@
-"""What is told of waves, and refused before a simulation: breaking, steepness, repeats, steps."""
+"""Warnings about waves, and checks before a simulation: breaking, steepness, repeats, steps."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ CASE: dict[str, Any] = {
 }
 
 
-def told(sea: Sea, depth: float) -> str:
+def cautions_of(sea: Sea, depth: float) -> str:
     waves = sea.waves(depth, GRAVITY)
     assert waves is not None
     return " | ".join(sea.cautions(waves))
@@ -73,37 +73,37 @@ def test_second_harmonic_of_a_steep_wave() -> None:
     assert second_harmonic_share(1.0, 0.2, 1e4) == pytest.approx(0.1)
 
 
-def test_regular_waves_that_break_are_told() -> None:
+def test_regular_waves_that_break_are_reported() -> None:
     """At Miche's height in deep water and at 0.78 of the depth in shallow; not below."""
     k = float(wave_number(np.array([2 * np.pi / 6]), 30.0, GRAVITY)[0])
     limit = breaking_height(k, 30.0)
-    assert "breaks in 30 m" in told(ow.RegularWaves(1.01 * limit, 6.0), 30.0)
-    assert "breaks" not in told(ow.RegularWaves(0.99 * limit, 6.0), 30.0)
-    assert "breaks" in told(ow.RegularWaves(8.0, 14.0), 10.0)
+    assert "breaks in 30 m" in cautions_of(ow.RegularWaves(1.01 * limit, 6.0), 30.0)
+    assert "breaks" not in cautions_of(ow.RegularWaves(0.99 * limit, 6.0), 30.0)
+    assert "breaks" in cautions_of(ow.RegularWaves(8.0, 14.0), 10.0)
 
 
-def test_linear_theory_beyond_its_range_is_told() -> None:
+def test_linear_theory_beyond_its_range_is_reported() -> None:
     """A wave whose second harmonic is large; not a low one."""
-    assert "stream function waves" in told(ow.RegularWaves(5.0, 12.0), 12.0)
-    assert told(ow.RegularWaves(0.5, 6.0), 30.0) == ""
-    assert "second harmonic" in told(irregular(4.0, 12.0), 12.0)
+    assert "stream function waves" in cautions_of(ow.RegularWaves(5.0, 12.0), 12.0)
+    assert cautions_of(ow.RegularWaves(0.5, 6.0), 30.0) == ""
+    assert "second harmonic" in cautions_of(irregular(4.0, 12.0), 12.0)
 
 
-def test_steep_and_shallow_seas_are_told() -> None:
+def test_steep_and_shallow_seas_are_reported() -> None:
     """By DNV's steepness, by Tp / sqrt(Hs), by the depth; the sea of LC 5.1 passes in silence."""
     assert steepest_sea(5.0) == pytest.approx(1 / 15)
     assert steepest_sea(20.0) == pytest.approx(1 / 25)
     assert steepest_sea(11.5) == pytest.approx((1 / 15 + 1 / 25) / 2)
-    assert "steepness of 1/" in told(irregular(6.0, 7.0), 60.0)
-    assert "Tp / sqrt(Hs) is 3.4" in told(irregular(2.0, 4.81), 60.0)
-    assert "would break at 0.78" in told(irregular(6.0, 12.0), 12.0)
-    assert told(irregular(1.25, 5.5), 14.0) == ""
+    assert "steepness of 1/" in cautions_of(irregular(6.0, 7.0), 60.0)
+    assert "Tp / sqrt(Hs) is 3.4" in cautions_of(irregular(2.0, 4.81), 60.0)
+    assert "would break at 0.78" in cautions_of(irregular(6.0, 12.0), 12.0)
+    assert cautions_of(irregular(1.25, 5.5), 14.0) == ""
 
 
-def test_a_crest_beyond_breaking_is_told() -> None:
+def test_a_crest_beyond_breaking_is_reported() -> None:
     """A crest of 6 m in 14 m of water belongs to a wave that breaks; one of 2 m does not."""
-    assert "a crest of 6 m" in told(irregular(4.0, 9.0, crest=ow.Crest(6.0, 50.0)), 14.0)
-    assert "a crest of" not in told(irregular(4.0, 9.0, crest=ow.Crest(2.0, 50.0)), 14.0)
+    assert "a crest of 6 m" in cautions_of(irregular(4.0, 9.0, crest=ow.Crest(6.0, 50.0)), 14.0)
+    assert "a crest of" not in cautions_of(irregular(4.0, 9.0, crest=ow.Crest(2.0, 50.0)), 14.0)
 
 
 # Refusals
@@ -252,7 +252,7 @@ def test_facts_of_a_replayed_record(tmp_path: Path) -> None:
 
 
 def test_regular_waves_have_no_significant_height(oc6: ow.Turbine) -> None:
-    """Their crest, trough and period are told; Hs and Tp belong to seas."""
+    """Their crest, trough and period are reported; Hs and Tp belong to seas."""
     facts = wave_facts(small(ow.RegularWaves(2.0, 8.0), oc6))
     assert facts["highest_crest_m"] == pytest.approx(1.0, rel=1e-4)
     assert facts["lowest_trough_m"] == pytest.approx(-1.0, rel=1e-4)

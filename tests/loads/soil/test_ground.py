@@ -153,31 +153,31 @@ def test_base_curves_are_of_the_layer_at_the_toe() -> None:
         assert base(layered(), shallow) is None
 
 
-def told(curve: LateralCurve, ground: PileNodes, **more: Any) -> str:
+def cautions_of(curve: LateralCurve, ground: PileNodes, **more: Any) -> str:
     return "\n".join(cautions(springs(curve, **more), ground))
 
 
 def test_cautions_name_what_is_outside() -> None:
-    """Each layer that the pile touches is told, others not."""
-    deep = told(layered(), nodes([1.0, 8.0, 20.0]))
+    """Each layer that the pile touches is reported, others not."""
+    deep = cautions_of(layered(), nodes([1.0, 8.0, 20.0]))
     for text in ("api_sand layer from 0 m", "matlock_clay layer from 6 m", "7 m"):
         assert text in deep
     assert "L/D" not in deep
-    assert "matlock" not in told(layered(), nodes([1.0], length=14.0))
-    assert "L/D from 2 to 6; this pile has L/D = 1.43" in told(
+    assert "matlock" not in cautions_of(layered(), nodes([1.0], length=14.0))
+    assert "L/D from 2 to 6; this pile has L/D = 1.43" in cautions_of(
         layered(), nodes([20.0], length=10.0)
     )
     slender = nodes([1.0, 8.0], diameter=1.8, length=10.0)
-    assert told(layered(LAYERS[:2]), slender) == ""
+    assert cautions_of(layered(LAYERS[:2]), slender) == ""
 
 
 def test_cautions_of_sand_and_shaft() -> None:
     """Friction angle, relative density, strength of soft clay, t-z curves."""
     slender = nodes([1.0, 5.0], diameter=1.8, length=9.0)
     sand = {**LAYERS[0], "friction_angle_deg": 44}
-    assert "friction angle of 44" in told(layered([sand]), slender)
+    assert "friction angle of 44" in cautions_of(layered([sand]), slender)
     clay = {**LAYERS[1], "top_m": 0, "undrained_shear_strength_pa": 150e3}
-    assert "soft clay" in told(layered([clay]), slender)
+    assert "soft clay" in cautions_of(layered([clay]), slender)
     loose = {
         "top_m": 0,
         "model": "pisa",
@@ -186,19 +186,19 @@ def test_cautions_of_sand_and_shaft() -> None:
         "shear_modulus_pa": 5e7,
         "submerged_unit_weight_n_per_m3": 9e3,
     }
-    assert "relative density of 0.3" in told(layered([loose]), nodes([5.0]))
-    assert told(layered([{**loose, "relative_density": 0.6}]), nodes([5.0])) == ""
+    assert "relative density of 0.3" in cautions_of(layered([loose]), nodes([5.0]))
+    assert cautions_of(layered([{**loose, "relative_density": 0.6}]), nodes([5.0])) == ""
     shaft = {"kind": "api", "soil": "sand", "skin_friction_pa": 5e4}
     line = LinearModulus.model_validate({"kind": "linear", "modulus_n_per_m2": 1e6})
-    assert "t-z" in told(line, nodes([5.0]), vertical=shaft)
-    assert told(line, nodes([5.0])) == ""
+    assert "t-z" in cautions_of(line, nodes([5.0]), vertical=shaft)
+    assert cautions_of(line, nodes([5.0])) == ""
 
 
 def test_cautions_of_nodes_and_of_layers_below_the_toe() -> None:
     """Nodes far apart, and a layer that the pile never reaches."""
     pile = nodes([1.0, 8.0], diameter=1.8, length=10.0)
-    assert "soil nodes are 5 m apart" in told(layered(LAYERS[:2]), pile, nodes=3)
-    assert "apart" not in told(layered(LAYERS[:2]), pile, nodes=41)
-    assert "layer from 6 m: the pile ends above it" in told(
+    assert "soil nodes are 5 m apart" in cautions_of(layered(LAYERS[:2]), pile, nodes=3)
+    assert "apart" not in cautions_of(layered(LAYERS[:2]), pile, nodes=41)
+    assert "layer from 6 m: the pile ends above it" in cautions_of(
         layered(LAYERS[:2]), nodes([1.0], diameter=1.8, length=5.0), nodes=41
     )

@@ -1,4 +1,4 @@
-"""Tower-top loads and rotors that cannot be used: each is told, and nothing is written."""
+"""Tower-top loads and rotors that cannot be used: each is reported, and nothing is written."""
 
 from __future__ import annotations
 
@@ -108,11 +108,11 @@ def run(folder: Path, **changes: Any) -> dict[str, Any]:
 
 @pytest.mark.parametrize("fault", LOAD_FAULTS)
 def test_load_fault(fault: str, folder: Path) -> None:
-    """Each fault of a tower-top load is told, and nothing is written."""
-    load, told = LOAD_FAULTS[fault]
+    """Each fault of a tower-top load is reported, and nothing is written."""
+    load, words = LOAD_FAULTS[fault]
     with pytest.raises(ow.InputError) as caught:
         run(folder, tower_top_load=load)
-    assert all(word in str(caught.value) for word in told), str(caught.value)
+    assert all(word in str(caught.value) for word in words), str(caught.value)
     assert not (folder / "out").exists()
 
 
@@ -165,8 +165,8 @@ ROTOR_FAULTS: dict[str, tuple[dict[str, Any], Change, list[str]]] = {
 
 @pytest.mark.parametrize("fault", ROTOR_FAULTS)
 def test_rotor_fault(fault: str, tmp_path: Path) -> None:
-    """Each fault of a turbine's rotor is told with its field."""
-    shipped, change, told = ROTOR_FAULTS[fault]
+    """Each fault of a turbine's rotor is reported with its field."""
+    shipped, change, words = ROTOR_FAULTS[fault]
     data = yaml.safe_load(yaml.safe_dump(shipped))
     change(data["rotor"])
     path = tmp_path / "turbine.yaml"
@@ -174,7 +174,7 @@ def test_rotor_fault(fault: str, tmp_path: Path) -> None:
     with pytest.raises(ow.InputError) as caught:
         ow.load_turbine(path)
     assert "rotor" in str(caught.value)
-    assert all(word in str(caught.value) for word in told), str(caught.value)
+    assert all(word in str(caught.value) for word in words), str(caught.value)
 
 
 def test_rotor_without_its_place(folder: Path) -> None:

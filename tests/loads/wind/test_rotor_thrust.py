@@ -119,11 +119,13 @@ def first_fore_aft(found: AerodynamicDamping) -> float:
 def test_free_decay_has_the_linearised_damping(
     system: ow.System, disc: RotorDisc, wind_speed: float, control: Control, lag: bool
 ) -> None:
-    """A small free swing decays, or above rated with an instant controller grows, as told."""
-    told = first_fore_aft(aerodynamic_damping(system, wind_speed, control, inflow_lag=lag, count=3))
+    """A small free swing decays, or above rated with an instant controller grows, as predicted."""
+    predicted = first_fore_aft(
+        aerodynamic_damping(system, wind_speed, control, inflow_lag=lag, count=3)
+    )
     thrust = RotorThrust(disc, constant_wind(wind_speed), control, inflow_lag=lag)
     found, frequency = decay_after_a_kick(system, thrust)
-    assert found == pytest.approx(told, rel=0.02)
+    assert found == pytest.approx(predicted, rel=0.02)
     assert (found < 0) == (wind_speed == ABOVE and control == "instant")
     assert frequency == pytest.approx(0.274, rel=0.02)
 
@@ -132,7 +134,7 @@ def test_a_load_that_knows_no_motion_does_not_damp(system: ow.System, disc: Roto
     """Negative control: the same thrust as a prescribed load leaves the swing undamped."""
     steady = RotorThrust(disc, constant_wind(BELOW)).steady_load()
     history = ow.LoadHistory(np.array([0.0, 50.0]), np.array([steady, steady]), "prescribed")
-    told = first_fore_aft(aerodynamic_damping(system, BELOW, count=3))
+    predicted = first_fore_aft(aerodynamic_damping(system, BELOW, count=3))
 
     def prescribed() -> float:
         kick = np.array([[0.0] * 6, [2e4, *[0.0] * 5], [0.0] * 6, [0.0] * 6])
@@ -148,7 +150,7 @@ def test_a_load_that_knows_no_motion_does_not_damp(system: ow.System, disc: Roto
         return float(np.ptp(x[-400:]) / np.ptp(x[100:500]))
 
     assert prescribed() > 0.97
-    assert told > 0.05
+    assert predicted > 0.05
 
 
 def test_damping_is_the_slope_of_the_curve(oc6: ow.Turbine, disc: RotorDisc) -> None:

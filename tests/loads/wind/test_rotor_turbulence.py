@@ -250,7 +250,7 @@ def test_blades_through_a_field_in_space() -> None:
         met = field[np.arange(steps)[:, None], blade].mean(axis=1)
         density += np.abs(np.fft.rfft(met)) ** 2 * 2 * step / steps / fields
     order = np.arange(1, steps // 2 + 1) / (period * ring.blade_passing_frequency)
-    told = ring.thrust_spectrum(order * ring.blade_passing_frequency)
+    predicted = ring.thrust_spectrum(order * ring.blade_passing_frequency)
     for low, high, noise_left in [
         (0.0, 0.1, 0.1),
         (0.1, 0.9, 0.04),
@@ -259,8 +259,8 @@ def test_blades_through_a_field_in_space() -> None:
         (1.9, 2.1, 0.04),
     ]:
         band = (order > low) & (order <= high) & (np.abs(order - np.round(order)) > 1e-9)
-        ratio = np.sum(density[1:][band]) / np.sum(told[band])
+        ratio = np.sum(density[1:][band]) / np.sum(predicted[band])
         assert ratio == pytest.approx(1.0, abs=noise_left)
     peak = np.abs(order - 1) < 0.1
     straight = ring.harmonic_spectrum(order[peak] * ring.blade_passing_frequency, 0)
-    assert np.sum(straight) < 0.5 * np.sum(told[peak])
+    assert np.sum(straight) < 0.5 * np.sum(predicted[peak])

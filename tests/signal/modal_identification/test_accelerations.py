@@ -103,7 +103,7 @@ FAULTS: list[tuple[list[str], str, str]] = [
 
 @pytest.mark.parametrize(("lines", "header", "message"), FAULTS)
 def test_bad_files(tmp_path: Path, lines: list[str], header: str, message: str) -> None:
-    """Each fault is told with its place."""
+    """Each fault is reported with its place."""
     with pytest.raises(InputError, match=message):
         read_accelerations(write(tmp_path, lines, header))
 

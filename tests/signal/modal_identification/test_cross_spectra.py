@@ -138,7 +138,7 @@ def _with(row: int, column: int, value: float) -> Array:
     ],
 )
 def test_bad_input(change: dict[str, Any], message: str) -> None:
-    """Each mistake is told, with what is allowed."""
+    """Each mistake is reported, with what is allowed."""
     good: dict[str, Any] = {"acceleration": GOOD, "sample_rate": RATE, "segment_s": 5.0}
     cross_spectral_matrix(**good)
     with pytest.raises(InputError, match=message):

@@ -132,7 +132,7 @@ GOOD = decay(0.5, 0.02, TIME)
     ],
 )
 def test_bad_input(change: dict[str, Any], message: str) -> None:
-    """Each mistake is told, a signal that grows or goes on for ever among them."""
+    """Each mistake is reported, a signal that grows or goes on for ever among them."""
     good: dict[str, Any] = {"values": GOOD, "dt": 0.02}
     free_decay(**good)
     with pytest.raises(InputError, match=message):

@@ -73,6 +73,6 @@ def test_complexity_in_closed_form() -> None:
     ],
 )
 def test_bad_input(a: Any, b: Any, message: str) -> None:
-    """Each mistake is told."""
+    """Each mistake is reported."""
     with pytest.raises(InputError, match=message):
         modal_assurance(a, b)

@@ -124,7 +124,7 @@ def _two_directions(count: int) -> tuple[ModalSystem, Array]:
 
 
 def test_two_modes_at_nearly_one_frequency() -> None:
-    """The stronger one is in the first singular value, the weaker one in the second, and the reader is told."""
+    """The stronger one is in the first singular value, the weaker one in the second, and the reader is reported."""
     system, values = _two_directions(200_000)
     settings: dict[str, Any] = {"segment_s": 100.0, "near": [0.5]}
     first = operational_modes(values, 10.0, **settings)
@@ -138,7 +138,7 @@ def test_two_modes_at_nearly_one_frequency() -> None:
     )
     shapes = np.vstack([first.shape, second.shape])
     assert np.min(modal_assurance(shapes, system.shape).diagonal()) > 0.99
-    # Channels of one direction see one mode, and nothing is to be told.
+    # Channels of one direction see one mode, and nothing is to be reported.
     alone = operational_modes(values[:, 4:], 10.0, **settings)
     assert alone.frequency_hz[0] == pytest.approx(0.505, rel=2e-3)
     assert not any("another mode or noise is close" in caution for caution in alone.cautions)
@@ -156,7 +156,7 @@ def test_harmonic_is_no_mode(record: Array) -> None:
         operational_modes(part + 0.5 * np.std(part) * tone, 1 / DT, 100.0, near=[1.3])
 
 
-def test_scatter_is_told() -> None:
+def test_scatter_is_reported() -> None:
     """Ratios of many short records scatter by at least the bound, and by less than three times it."""
     system = ModalSystem(
         np.array([1.0, 3.0]), np.array([0.01, 0.01]), np.array([[1.0, 0.4], [-0.5, 1.0]])
@@ -173,7 +173,7 @@ def test_scatter_is_told() -> None:
 
 
 def test_cautions(record: Array) -> None:
-    """Few segments, short segments and short records are told."""
+    """Few segments, short segments and short records are reported."""
     few = " ".join(operational_modes(record[:8_000], 20.0, 100.0, near=[0.8]).cautions)
     assert "independent ones" in few
     assert "damping ratios from records" in few
@@ -183,7 +183,7 @@ def test_cautions(record: Array) -> None:
     assert any("does not decay to 0.4" in caution for caution in short)
 
 
-def test_shape_out_of_phase_is_told(record: Array) -> None:
+def test_shape_out_of_phase_is_reported(record: Array) -> None:
     """A channel that comes late makes the shapes complex."""
     late = record[:100_000].copy()
     late[:, 4] = np.roll(late[:, 4], 2)
@@ -218,7 +218,7 @@ GOOD = SYSTEM.accelerations(THREE_FORCES, DT, 20_000, seed=2)
     ],
 )
 def test_bad_input(change: dict[str, Any], message: str) -> None:
-    """Each mistake is told, with what is allowed."""
+    """Each mistake is reported, with what is allowed."""
     good: dict[str, Any] = {"acceleration": GOOD, "sample_rate": 20.0, "segment_s": 50.0}
     operational_modes(**good)
     with pytest.raises(InputError, match=message):

@@ -20,7 +20,7 @@ from offwind_pin.dynamics.compiled.chain import CompiledChain
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.point_load import (
     BY_POSITION,
-    MOMENT_BY_TURN,
+    MOMENT_BY_ROTATION,
     KernelLoad,
     PointForces,
     PointLoad,
@@ -150,7 +150,7 @@ def condense(
     residual = float(np.max(np.abs(chain.residual(chain.mean_inputs(), q, rest, rest))))
     residual /= load_scale(system)
     if residual > _OUT_OF_BALANCE:
-        allowed = "a static state of this system, in balance"
+        allowed = "a static state of this system, in equilibrium"
         raise InputError(
             "about",
             f"a residual of {residual:.2g} of the loads",
@@ -202,16 +202,20 @@ class SecantSprings(PointLoad):
         """Secants of springs in a state, across and along the pile; tangents where undeflected."""
         forces = springs.forces(0.0, motion, 0.0, past)
         blocks = springs.tangents(0.0, motion, 0.0, past).blocks()
-        turn = np.zeros_like(motion.axis) if motion.turn is None else motion.turn
+        rotation = (
+            np.zeros_like(motion.axis) if motion.rotation_vector is None else motion.rotation_vector
+        )
         return SecantSprings(
             springs.height,
             _secants(forces.force, motion.displacement, blocks[:, BY_POSITION]),
-            _secants(forces.moment, turn, blocks[:, MOMENT_BY_TURN]),
+            _secants(forces.moment, rotation, blocks[:, MOMENT_BY_ROTATION]),
         )
 
     def forces(self, time: float, motion: PointMotion, ramp_factor: float) -> PointForces:
-        turn = np.zeros_like(motion.axis) if motion.turn is None else motion.turn
-        return PointForces(-self.stiffness * motion.displacement, -self.rotational * turn)
+        rotation = (
+            np.zeros_like(motion.axis) if motion.rotation_vector is None else motion.rotation_vector
+        )
+        return PointForces(-self.stiffness * motion.displacement, -self.rotational * rotation)
 
     def tangents(self, time: float, motion: PointMotion, ramp_factor: float) -> PointTangents:
         return replace(

@@ -21,7 +21,7 @@ from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.loads.sea.sea import Sea
 from offwind_pin.structure.chain import Elements
 
-UNTOLD = 1 / np.sqrt(12)
+LARGEST_ERROR = 1 / np.sqrt(12)
 """Standard error of a combination, in shares of the parameters' ranges, above which the data do not
 determine it: the standard deviation of a uniform distribution over the range, which follows from
 the bounds alone."""
@@ -378,15 +378,15 @@ class _Fit:
         singular = np.zeros(len(shares))
         singular[: len(values)] = values
         singular[singular < NUMERICAL_RANK * singular[0]] = 0.0
-        told = singular * UNTOLD > 1
-        kept = combinations[told]
-        covariance = kept.T @ np.diag(1 / singular[told] ** 2) @ kept
+        determined = singular * LARGEST_ERROR > 1
+        kept = combinations[determined]
+        covariance = kept.T @ np.diag(1 / singular[determined] ** 2) @ kept
         found = tuple(
             self._parameter(i, float(share), covariance, combinations, singular)
             for i, share in enumerate(shares)
         )
         total = float(distances @ distances)
-        freedom = len(distances) - int(told.sum())
+        freedom = len(distances) - int(determined.sum())
         outcome = SoilIdentification(
             turbine=self.changed(shares),
             parameters=found,
@@ -408,10 +408,10 @@ class _Fit:
         self, i: int, share: float, covariance: Array, combinations: Array, singular: Array
     ) -> FoundParameter:
         parameter = self.parameters[i]
-        untold = singular * UNTOLD <= 1
-        open_share = float(np.sum(combinations[untold, i] ** 2))
+        undetermined = singular * LARGEST_ERROR <= 1
+        open_share = float(np.sum(combinations[undetermined, i] ** 2))
         error = float(np.sqrt(covariance[i, i]))
-        identifiable = open_share < 1 - _ALONE and error < UNTOLD
+        identifiable = open_share < 1 - _ALONE and error < LARGEST_ERROR
         bound = "lower" if share < _AT_BOUND else "upper" if share > 1 - _AT_BOUND else None
         return FoundParameter(
             parameter=parameter,
@@ -467,7 +467,7 @@ def _in_words(outcome: SoilIdentification) -> str:
     if not outcome.identifiable:
         for value, row in zip(outcome.singular_values, outcome.combinations, strict=True):
             what = _combination(row, names)
-            if value * UNTOLD > 1:
+            if value * LARGEST_ERROR > 1:
                 lines.append(f"Determined to within {1 / value:.2g} of the range: {what}.")
             else:
                 lines.append(f"Not determined by the data: {what}.")

@@ -191,8 +191,8 @@ class CompiledChain:
             velocity=data.velocity[k] + around,
             axis=rotation[:, :, 2].copy(),
             acceleration=data.acceleration[k] + inward,
-            turn=np.column_stack([skew[:, 2, 1], skew[:, 0, 2], skew[:, 1, 0]]),
-            spin=spin,
+            rotation_vector=np.column_stack([skew[:, 2, 1], skew[:, 0, 2], skew[:, 1, 0]]),
+            angular_velocity=spin,
         )
 
     def top_jacobian(self) -> Array:

@@ -43,15 +43,16 @@ class PointDerivatives:
     """Derivatives (n, 3, nv) of the motion of points by q, v and a.
 
     position : of the position by q, of the velocity by v, and of the acceleration by a
-    rotation : of the section by q, of its spin by v
-    axis, turn, velocity_by_q, spin_by_q, acceleration_by_q, acceleration_by_v : of these by q or v
+    rotation : of the section by q, of its angular velocity by v
+    axis, rotation_vector, velocity_by_q, angular_velocity_by_q, acceleration_by_q,
+    acceleration_by_v : of these by q or v
     """
 
     position: Array
     rotation: Array
     axis: Array
-    turn: Array
-    spin_by_q: Array
+    rotation_vector: Array
+    angular_velocity_by_q: Array
     velocity_by_q: Array
     acceleration_by_q: Array
     acceleration_by_v: Array
@@ -101,13 +102,13 @@ class ChainMotion:
         joints = len(chain.node_joints)
         self._last_dof = chain.roots + joints * np.arange(chain.elements + 1) - 1
         self.axis = rotation[:, :, 2]
-        rise = np.zeros((chain.elements + 1, 3))
-        rise[0] = [0.0, 0.0, chain.base]
-        rise[1:] = np.diff(chain.origin)[:, None] * self.axis[:-1]
+        offset = np.zeros((chain.elements + 1, 3))
+        offset[0] = [0.0, 0.0, chain.base]
+        offset[1:] = np.diff(chain.origin)[:, None] * self.axis[:-1]
         axis_joints = chain.joint_name[: chain.axis_joints]
         slides = [i for i, name in enumerate(axis_joints) if name[-2] == "p"]
-        np.add.at(rise, self.dof_body[slides], (jacobian[:3, slides] * q[slides]).T)
-        self.origin = np.cumsum(rise, axis=0)
+        np.add.at(offset, self.dof_body[slides], (jacobian[:3, slides] * q[slides]).T)
+        self.origin = np.cumsum(offset, axis=0)
         self._through = np.cumsum(jacobian * v, axis=1)
         self._rate_through = np.cumsum(jacobian * a + jacobian_rate * v, axis=1)
         self.twist = self._bodies(self._through)
@@ -122,8 +123,10 @@ class ChainMotion:
         twist, rate = self.twist[points.body], self.twist_rate[points.body]
         velocity = twist[:, :3] + cross(twist[:, 3:], position)
         acceleration = rate[:, :3] + cross(rate[:, 3:], position) + cross(twist[:, 3:], velocity)
-        turn = axial_vector(self.rotation[points.body])
-        return PointMotion(position, displacement, velocity, axis, acceleration, turn, twist[:, 3:])
+        rotation_vector = axial_vector(self.rotation[points.body])
+        return PointMotion(
+            position, displacement, velocity, axis, acceleration, rotation_vector, twist[:, 3:]
+        )
 
     def points_at(self, height: Array) -> PointMotion:
         """Motion of the points of the axis at undeformed heights in m."""
@@ -146,22 +149,26 @@ class ChainMotion:
         rate_by_q = spatial_cross(columns, rate - rate_through)
         rate_by_q = rate_by_q + spatial_cross(turning, twist - through)
         rate_by_v = beyond + turning
-        place, spin = motion.position[:, None], twist[..., 3:]
-        moved = columns[..., :3] + cross(columns[..., 3:], place)
-        speed = beyond[..., :3] + cross(beyond[..., 3:], place) + cross(spin, moved)
-        pushed = rate_by_q[..., :3] + cross(rate_by_q[..., 3:], place)
+        position, angular_velocity = motion.position[:, None], twist[..., 3:]
+        moved = columns[..., :3] + cross(columns[..., 3:], position)
+        speed = beyond[..., :3] + cross(beyond[..., 3:], position) + cross(angular_velocity, moved)
+        pushed = rate_by_q[..., :3] + cross(rate_by_q[..., 3:], position)
         pushed = pushed + cross(rate[..., 3:], moved)
         pushed = pushed + cross(beyond[..., 3:], motion.velocity[:, None])
-        pushed = pushed + cross(spin, speed)
-        by_v = rate_by_v[..., :3] + cross(rate_by_v[..., 3:], place)
-        by_v = by_v + cross(columns[..., 3:], motion.velocity[:, None]) + cross(spin, moved)
+        pushed = pushed + cross(angular_velocity, speed)
+        by_v = rate_by_v[..., :3] + cross(rate_by_v[..., 3:], position)
+        by_v = (
+            by_v
+            + cross(columns[..., 3:], motion.velocity[:, None])
+            + cross(angular_velocity, moved)
+        )
         axis = cross(columns[..., 3:], motion.axis[:, None])
         rotation = np.broadcast_to(columns[..., 3:], moved.shape)
         orientation = self.rotation[points.body]
         trace = np.trace(orientation, axis1=1, axis2=2)
         by_rotation = (trace[:, None, None] * np.eye(3) - orientation) / 2
-        turn = np.einsum("nij,nkj->nki", by_rotation, rotation)
-        parts = (moved, rotation, axis, turn, beyond[..., 3:], speed, pushed, by_v)
+        rotation_vector = np.einsum("nij,nkj->nki", by_rotation, rotation)
+        parts = (moved, rotation, axis, rotation_vector, beyond[..., 3:], speed, pushed, by_v)
         return PointDerivatives(*(self._kept(part, lower) for part in parts))
 
     def position_derivatives(self, points: AxisPoints, position: Array) -> Array:

@@ -29,10 +29,10 @@ from offwind_pin.dynamics.reference.chain_kinematics import AxisPoints, ChainMot
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.earthquake.ground_motion import GroundMotion
 from offwind_pin.loads.point_load import (
+    MOMENT_BY_ANGULAR_VELOCITY,
     MOMENT_BY_POSITION,
-    MOMENT_BY_SPIN,
-    MOMENT_BY_TURN,
-    SPIN,
+    MOMENT_BY_ROTATION,
+    ANGULAR_VELOCITY,
     VELOCITY,
     PointForces,
     PointLoad,
@@ -41,8 +41,8 @@ from offwind_pin.loads.point_load import (
 )
 from offwind_pin.loads.root_restraint import FREE
 
-_RATE = np.r_[VELOCITY, SPIN]
-"""Columns of velocity and spin."""
+_RATE = np.r_[VELOCITY, ANGULAR_VELOCITY]
+"""Columns of velocity and angular_velocity."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -290,15 +290,21 @@ class Equations:
             blocks = tangents.blocks()
             if np.any(blocks[:, MOMENT_BY_POSITION:]):
                 change = np.einsum("nij,njk->nik", blocks[:, MOMENT_BY_POSITION], how.position)
-                change += np.einsum("nij,njk->nik", blocks[:, MOMENT_BY_TURN], how.turn)
-                change += np.einsum("nij,njk->nik", blocks[:, MOMENT_BY_SPIN], how.spin_by_q)
+                change += np.einsum(
+                    "nij,njk->nik", blocks[:, MOMENT_BY_ROTATION], how.rotation_vector
+                )
+                change += np.einsum(
+                    "nij,njk->nik", blocks[:, MOMENT_BY_ANGULAR_VELOCITY], how.angular_velocity_by_q
+                )
                 by_q -= np.tensordot(how.rotation, change, axes=([0, 1], [0, 1]))
-                change = np.einsum("nij,njk->nik", blocks[:, MOMENT_BY_SPIN], how.rotation)
+                change = np.einsum(
+                    "nij,njk->nik", blocks[:, MOMENT_BY_ANGULAR_VELOCITY], how.rotation
+                )
                 by_v -= np.tensordot(how.rotation, change, axes=([0, 1], [0, 1]))
             if load.coupling is not None:
                 wrench, rate = load.coupling
                 by_speed = _sums(wrench, how.position, how.rotation)
-                moved = _sums(wrench, how.velocity_by_q, how.spin_by_q)
+                moved = _sums(wrench, how.velocity_by_q, how.angular_velocity_by_q)
                 by_v += by_speed.T @ (rate[:, None] * by_speed)
                 by_q += by_speed.T @ (rate[:, None] * moved)
         by_q -= state.motion.geometric_stiffness(

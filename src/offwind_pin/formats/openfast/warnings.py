@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from offwind_pin.definitions.turbine import RigidBodyRNA, RotorNacelleRNA
-from offwind_pin.formats.openfast.yaw_bearing_load import carried_body
+from offwind_pin.formats.openfast.yaw_bearing_load import supported_body
 from offwind_pin.loads.tower_top.load_history import LoadHistory
 
 SMALL_SHARE = 1e-3
@@ -26,25 +26,25 @@ def load_cautions(
 
     gravity in m/s2
     """
-    weight = carried_body(rna).mass * gravity
+    weight = supported_body(rna).mass * gravity
     level = float(np.max(np.abs(history.load[:, :2])))
-    told = []
+    warnings = []
     if 0 < level < SMALL_SHARE * weight:
-        told.append(
+        warnings.append(
             f"{history.origin}: horizontal forces of {level:.3g} N are {level / weight:.1e} of "
             f"the weight of rotor and nacelle ({weight:.3g} N); they seem to be in kN where N is "
             "required: set factor: 1000"
         )
     if level > LARGE_SHARE * weight:
-        told.append(
+        warnings.append(
             f"{history.origin}: horizontal forces of {level:.3g} N are {level / weight:.0f} times "
             f"the weight of rotor and nacelle ({weight:.3g} N); were they multiplied by 1000 twice?"
         )
     mean = float(np.mean(history.load[:, 2]))
     if WEIGHT_SHARE[0] * weight < -mean < WEIGHT_SHARE[1] * weight:
-        told.append(
+        warnings.append(
             f"{history.origin}: the mean Fz of {mean:.3g} N is the weight of rotor and nacelle "
             f"({weight:.3g} N), which the model already includes, so it would count twice: set "
             "subtract_weight: true, or use aerodynamic channels"
         )
-    return told
+    return warnings

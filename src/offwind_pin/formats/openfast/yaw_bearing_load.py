@@ -103,7 +103,7 @@ def _turned_back(vector: Array, angle: Array) -> Array:
     return np.column_stack([vector[:, 0], across, upright])
 
 
-def carried_body(rna: RigidBodyRNA | RotorNacelleRNA) -> RigidBody:
+def supported_body(rna: RigidBodyRNA | RotorNacelleRNA) -> RigidBody:
     """The rotor-nacelle assembly above the yaw bearing, without the bearing itself."""
     if isinstance(rna, RotorNacelleRNA):
         rna = rna.model_copy(update={"yaw_bearing_mass": 0.0})
@@ -112,7 +112,7 @@ def carried_body(rna: RigidBodyRNA | RotorNacelleRNA) -> RigidBody:
 
 def weight_at_yaw_bearing(rna: RigidBodyRNA | RotorNacelleRNA, gravity: float) -> Array:
     """(6,) load in N and N m that the weight of rotor and nacelle exerts on the yaw bearing."""
-    body = carried_body(rna)
+    body = supported_body(rna)
     force = np.array([0.0, 0.0, -body.mass * gravity])
     return np.concatenate([force, np.cross(body.center_of_mass, force)])
 

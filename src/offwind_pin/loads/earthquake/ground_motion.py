@@ -240,41 +240,41 @@ def ground_motion_cautions(motion: GroundMotion, dt: float, duration: float) -> 
             f"a start before the end of the simulation ({duration:g} s)",
             "Reduce the start, or lengthen the simulation.",
         )
-    told = []
+    warnings = []
     if motion.time[0] < 0:
-        told.append(
+        warnings.append(
             f"the record begins at {motion.time[0]:g} s, so the simulation starts in the middle of "
             "it, with the structure at rest relative to the moving ground"
         )
     if motion.time[-1] > duration:
-        told.append(f"the record ends at {motion.time[-1]:g} s, after the simulation")
+        warnings.append(f"the record ends at {motion.time[-1]:g} s, after the simulation")
     if motion.step > _COARSE:
-        told.append(
+        warnings.append(
             f"samples {motion.step:g} s apart are coarse: linear interpolation attenuates "
             f"frequencies above {1 / (8 * motion.step):.2g} Hz by more than 5 %"
         )
     if dt > 1.001 * motion.step:
-        told.append(
+        warnings.append(
             f"steps of {dt:g} s skip samples that are {motion.step:g} s apart: frequencies above "
             f"{0.5 / dt:.3g} Hz are aliased"
         )
     if not np.any(motion.acceleration):
-        told.append("the record contains only zeros; the ground does not move")
+        warnings.append("the record contains only zeros; the ground does not move")
     velocity = motion.motion(motion.time[-1:])[0, :, 1]
     peak = np.max(np.abs(motion.motion(motion.time)[:, :, 1]))
     if np.max(np.abs(velocity)) > _DRIFTING * peak:
-        told.append(
+        warnings.append(
             f"the ground still moves at {np.max(np.abs(velocity)):.3g} m/s when the record ends, "
             "and drifts on; use baseline: parabolic to bring it to rest"
         )
     given = motion.acceleration if motion.height is not None else motion.acceleration[None]
     share = np.max(np.abs(motion.corrected - given)) / max(np.max(np.abs(given)), 1e-300)
     if share > _CROOKED:
-        told.append(
+        warnings.append(
             f"the baseline correction removes {share:.0%} of the largest acceleration; the record "
             "is distorted, or has too few samples to determine its baseline"
         )
-    return told
+    return warnings
 
 
 _COARSE = 0.025

@@ -11,14 +11,14 @@ import numpy as np
 from offwind_pin.base.definition import Array
 from offwind_pin.base.descriptions import one_line
 from offwind_pin.loads.point_load import (
-    SPIN,
+    ANGULAR_VELOCITY,
     VELOCITY,
     force_kernel,
     no_tangents,
 )
 from offwind_pin.loads.structural.inertial_damping import InertialDamping
 
-_VELOCITY, _SPIN = VELOCITY.start, SPIN.start
+_VELOCITY, _ANGULAR_VELOCITY = VELOCITY.start, ANGULAR_VELOCITY.start
 
 
 @force_kernel
@@ -35,7 +35,7 @@ def _forces(
         for p in range(len(motion)):
             for j in range(3):
                 speed += constants[p, 6 * i + j] * motion[p, _VELOCITY + j]
-                speed += constants[p, 6 * i + 3 + j] * motion[p, _SPIN + j]
+                speed += constants[p, 6 * i + 3 + j] * motion[p, _ANGULAR_VELOCITY + j]
         amplitude = constants[0, 6 * count + i] * speed
         power += amplitude * speed
         for p in range(len(motion)):
@@ -49,7 +49,7 @@ class CoupledDamping(InertialDamping):
     """k dampers, each on a weighted sum of the velocities of all points.
 
     With the wrenches w_ip of damper i at the points p, its force at each point is
-    -rate_i w_ip s_i with s_i = sum_p w_ip . (velocity, spin)_p: symmetric, and dissipative where
+    -rate_i w_ip s_i with s_i = sum_p w_ip . (velocity, angular_velocity)_p: symmetric, and dissipative where
     the rate is positive. Wrenches keep their directions in the inertial frame.
 
     Attributes

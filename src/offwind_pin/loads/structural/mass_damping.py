@@ -12,15 +12,15 @@ from offwind_pin.base.definition import Array
 from offwind_pin.base.descriptions import one_line
 from offwind_pin.loads.point_load import (
     BY_VELOCITY,
-    MOMENT_BY_SPIN,
-    SPIN,
+    MOMENT_BY_ANGULAR_VELOCITY,
+    ANGULAR_VELOCITY,
     VELOCITY,
     force_kernel,
     tangent_kernel,
 )
 from offwind_pin.loads.structural.inertial_damping import InertialDamping
 
-_VELOCITY, _SPIN = VELOCITY.start, SPIN.start
+_VELOCITY, _ANGULAR_VELOCITY = VELOCITY.start, ANGULAR_VELOCITY.start
 
 
 @force_kernel
@@ -30,10 +30,10 @@ def _forces(
     power = 0.0
     for p in range(len(motion)):
         for j in range(3):
-            velocity, spin = motion[p, _VELOCITY + j], motion[p, _SPIN + j]
+            velocity, angular_velocity = motion[p, _VELOCITY + j], motion[p, _ANGULAR_VELOCITY + j]
             force[p, j] = -constants[p, j] * velocity
-            force[p, 3 + j] = -constants[p, 3 + j] * spin
-            power += constants[p, j] * velocity**2 + constants[p, 3 + j] * spin**2
+            force[p, 3 + j] = -constants[p, 3 + j] * angular_velocity
+            power += constants[p, j] * velocity**2 + constants[p, 3 + j] * angular_velocity**2
     return power
 
 
@@ -44,7 +44,7 @@ def _tangents(
     for p in range(len(motion)):
         for j in range(3):
             blocks[p, BY_VELOCITY, j, j] = -constants[p, j]
-            blocks[p, MOMENT_BY_SPIN, j, j] = -constants[p, 3 + j]
+            blocks[p, MOMENT_BY_ANGULAR_VELOCITY, j, j] = -constants[p, 3 + j]
 
 
 @dataclass(frozen=True, eq=False)

@@ -192,10 +192,10 @@ def _rotor_structure() -> System:
 def aerodynamic_decay(wind_speed: float, control: Control) -> Found:
     """Damping ratio of FA1 in a free decay in a steady wind, and the linearised one."""
     system = _rotor_structure()
-    told = aerodynamic_damping(system, wind_speed, control, count=3)
+    predicted = aerodynamic_damping(system, wind_speed, control, count=3)
     thrust = RotorThrust(rotor_disc(system.turbine), constant_wind(wind_speed), control)
     ratio, _ = decay_after_a_kick(system, thrust)
-    return Found(ratio, float(told.ratio[told.label.index("FA1")]))
+    return Found(ratio, float(predicted.ratio[predicted.label.index("FA1")]))
 
 
 def decay_after_a_kick(

@@ -465,9 +465,9 @@ def test_series_is_the_sum(stretching: str) -> None:
 
 
 def test_current_in_the_waves_is_refused() -> None:
-    with pytest.raises(ow.InputError, match=r"field carried.*water at rest"):
-        SecondOrderWaves(replace(SHORT_CRESTED, carried=np.full(5, 0.5)))
-    SecondOrderWaves(replace(SHORT_CRESTED, carried=np.zeros(5)))
+    with pytest.raises(ow.InputError, match=r"field current_along.*water at rest"):
+        SecondOrderWaves(replace(SHORT_CRESTED, current_along=np.full(5, 0.5)))
+    SecondOrderWaves(replace(SHORT_CRESTED, current_along=np.zeros(5)))
 
 
 def test_other_fields_are_refused() -> None:

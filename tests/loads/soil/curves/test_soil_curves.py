@@ -158,7 +158,7 @@ HEADER = "depth_m,y_m,p_n_per_m\n"
 
 
 @pytest.mark.parametrize(
-    ("text", "told"),
+    ("text", "message"),
     [
         ("", "no rows"),
         (HEADER, "no rows"),
@@ -184,11 +184,11 @@ HEADER = "depth_m,y_m,p_n_per_m\n"
         "one",
     ],
 )
-def test_bad_table_is_refused(tmp_path: Path, text: str, told: str) -> None:
-    """Every fault is told with the file and the place."""
+def test_bad_table_is_refused(tmp_path: Path, text: str, message: str) -> None:
+    """Every fault is reported with the file and the place."""
     path = tmp_path / "bad.csv"
     path.write_text(text)
-    with pytest.raises(InputError, match=told) as caught:
+    with pytest.raises(InputError, match=message) as caught:
         tabulated_curves(path, np.zeros(1))
     assert str(path) in str(caught.value)
 

@@ -307,7 +307,7 @@ def test_pisa_with_parameters_of_ones_own() -> None:
 
 
 def test_pisa_far_outside_its_calibration_is_refused() -> None:
-    """At L/D = 8 the stiffness of Cowden till is negative at the toe: told with the reaction."""
+    """At L/D = 8 the stiffness of Cowden till is negative at the toe: reported with the reaction."""
     curve = ground("static", model="pisa", calibration="cowden_till", **CLAY)
     node = PileNodes(np.array([60.0]), np.array([DIAMETER]), 64.0)
     with pytest.raises(InputError, match=r"reaction lateral.*z/D = 7.5"):

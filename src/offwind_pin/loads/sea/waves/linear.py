@@ -29,7 +29,7 @@ class LinearWaves(WaveField):
     direction : (m,) array, rad
         Direction of travel of each component, from +x towards +y.
     wave_number : (m,) array, rad/m
-    carried : (m,) array or float, m/s
+    current_along : (m,) array or float, m/s
         Current along each component that carries it.
     blocked : float
         Fraction of the variance that an opposing current blocks and that is omitted.
@@ -42,7 +42,7 @@ class LinearWaves(WaveField):
     depth: float
     gravity: float
     wave_number: Array
-    carried: Array | float = 0.0
+    current_along: Array | float = 0.0
     blocked: float = 0.0
 
     __repr__ = one_line
@@ -134,7 +134,7 @@ class LinearWaves(WaveField):
     @property
     def intrinsic_omega(self) -> Array:
         """(m,) angular frequencies in rad/s in the moving water."""
-        return self.omega - self.wave_number * self.carried
+        return self.omega - self.wave_number * self.current_along
 
     def velocity(self, height: Array) -> ComplexArray:
         horizontal, vertical = self._profiles(np.minimum(height, 0.0))

@@ -165,11 +165,11 @@ def _check(linear: WaveField) -> None:
         raise InputError(
             _WHERE, received, allowed, "Use stream function theory for steep regular waves."
         )
-    if np.any(np.asarray(linear.carried) != 0):
-        fastest = float(np.max(np.abs(linear.carried)))
+    if np.any(np.asarray(linear.current_along) != 0):
+        fastest = float(np.max(np.abs(linear.current_along)))
         allowed = "waves on water at rest"
         remedy = "Leave out doppler, or use order 1."
-        raise InputError(f"{_WHERE}, field carried", fastest, allowed, remedy)
+        raise InputError(f"{_WHERE}, field current_along", fastest, allowed, remedy)
     number = linear.harmonic
     if len(number) == 0 or np.any(number < 1) or np.any(number % 1 != 0):
         allowed = "whole numbers from 1, at least one"

@@ -79,31 +79,31 @@ def irregular_wave_cautions(
     significant_height and depth in m, peak_period in s, gravity in m/s2; wind_sea : whether the sea
     is defined by Hs and Tp, for which limits of steepness are known
     """
-    told = []
+    warnings = []
     steepness = 2 * np.pi * significant_height / (gravity * peak_period**2)
     steepest = steepest_sea(peak_period)
     if wind_sea and steepness > steepest:
-        told.append(
+        warnings.append(
             f"Hs {significant_height:.3g} m with Tp {peak_period:.3g} s has a steepness of 1/"
             f"{1 / steepness:.3g}; seas reach 1/{1 / steepest:.3g} at most (DNV-RP-C205, 3.5.4); "
             "is the period Tz rather than Tp?"
         )
     elif wind_sea and peak_period / np.sqrt(significant_height) < LOW_PERIOD:
         ratio = peak_period / np.sqrt(significant_height)
-        told.append(
+        warnings.append(
             f"Tp / sqrt(Hs) is {ratio:.3g}, below {LOW_PERIOD:g}, the steepest wind seas for "
             "which the JONSWAP spectrum was derived"
         )
     highest = HIGHEST_OF_MANY * significant_height
     if highest > DEPTH_LIMIT * depth:
-        told.append(
+        warnings.append(
             f"Hs {significant_height:.3g} m in {depth:.3g} m of water: the highest of 1000 waves, "
             f"{highest:.3g} m by the Rayleigh distribution, exceeds the breaking limit of "
             f"{DEPTH_LIMIT:g} times the depth"
         )
     k = float(wave_number(np.array([2 * np.pi / peak_period]), depth, gravity)[0])
     remedy = "waves of order 2" if order == 1 else "the highest wave as a stream function wave"
-    return told + _nonlinearity(significant_height / 2, k, depth, order, remedy)
+    return warnings + _nonlinearity(significant_height / 2, k, depth, order, remedy)
 
 
 def crest_cautions(crest: float, peak_period: float, depth: float, gravity: float) -> list[str]:

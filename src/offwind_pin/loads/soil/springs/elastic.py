@@ -12,13 +12,13 @@ from offwind_pin.base.definition import Array
 from offwind_pin.base.kernels import ExchangeableKernel, inner
 from offwind_pin.base.records import clear, part
 from offwind_pin.loads.point_load import (
+    ANGULAR_VELOCITY,
     BY_POSITION,
     BY_VELOCITY,
     DISPLACEMENT,
-    MOMENT_BY_SPIN,
-    MOMENT_BY_TURN,
-    SPIN,
-    TURN,
+    MOMENT_BY_ANGULAR_VELOCITY,
+    MOMENT_BY_ROTATION,
+    ROTATION,
     VELOCITY,
     GroupedLoad,
     KernelLoad,
@@ -76,15 +76,25 @@ class SpringComponent:
     @property
     def turns(self) -> bool:
         """Whether it resists rotation, so that its forces are moments."""
-        return self.stiffness == MOMENT_BY_TURN
+        return self.stiffness == MOMENT_BY_ROTATION
 
 
 LATERAL = SpringComponent(DISPLACEMENT.start, VELOCITY.start, 0, 2, BY_POSITION, BY_VELOCITY, 0)
 VERTICAL = SpringComponent(
     DISPLACEMENT.start + 2, VELOCITY.start + 2, 2, 1, BY_POSITION, BY_VELOCITY, 2
 )
-ROCKING = SpringComponent(TURN.start, SPIN.start, 3, 2, MOMENT_BY_TURN, MOMENT_BY_SPIN, 0)
-TORSIONAL = SpringComponent(TURN.start + 2, SPIN.start + 2, 5, 1, MOMENT_BY_TURN, MOMENT_BY_SPIN, 2)
+ROCKING = SpringComponent(
+    ROTATION.start, ANGULAR_VELOCITY.start, 3, 2, MOMENT_BY_ROTATION, MOMENT_BY_ANGULAR_VELOCITY, 0
+)
+TORSIONAL = SpringComponent(
+    ROTATION.start + 2,
+    ANGULAR_VELOCITY.start + 2,
+    5,
+    1,
+    MOMENT_BY_ROTATION,
+    MOMENT_BY_ANGULAR_VELOCITY,
+    2,
+)
 """Horizontal displacement, settlement, rotation about horizontal axes, twist about the axis."""
 
 DEFLECTION, RATE, FORCE, SIZE, STIFFNESS, DAMPING, FIRST = range(7)

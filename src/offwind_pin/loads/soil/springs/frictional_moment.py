@@ -19,8 +19,8 @@ from offwind_pin.base.records import clear, part
 from offwind_pin.loads.point_load import (
     DISPLACEMENT,
     MOMENT_BY_POSITION,
-    MOMENT_BY_TURN,
-    TURN,
+    MOMENT_BY_ROTATION,
+    ROTATION,
     GroupedLoad,
     KernelLoad,
     force_kernel,
@@ -38,7 +38,7 @@ _LENGTH, _LEVER_SIZE, _LEVER = range(3)
 """Columns of a node's constants: tributary length, number of the lever's parameters, and from the
 last on these parameters, followed by those of the lateral curve."""
 
-_U, _R, _MOMENT = DISPLACEMENT.start, TURN.start, 3
+_U, _R, _MOMENT = DISPLACEMENT.start, ROTATION.start, 3
 
 
 class _FrictionKernels(NamedTuple):
@@ -83,17 +83,17 @@ def _friction_kernels(lateral: type[SoilCurve], lever: type[SoilCurve]) -> _Fric
             arm = lever_at(lever, angle)
             slope = lever_tangent_at(lever, angle)
             for j in range(2):
-                turn = motion[i, _R + j]
+                rotation = motion[i, _R + j]
                 for k in range(2):
                     if y > 0:
                         along = motion[i, _U + k] / y
-                        by_size = -c[_LENGTH] * tangent * arm * turn
+                        by_size = -c[_LENGTH] * tangent * arm * rotation
                         blocks[i, MOMENT_BY_POSITION, j, k] = by_size * along
                     if angle > 0:
                         along = motion[i, _R + k] / angle
-                        by_angle = -c[_LENGTH] * secant * y * (slope - arm) / angle * turn
-                        blocks[i, MOMENT_BY_TURN, j, k] = by_angle * along
-                blocks[i, MOMENT_BY_TURN, j, j] -= c[_LENGTH] * secant * y * arm
+                        by_angle = -c[_LENGTH] * secant * y * (slope - arm) / angle * rotation
+                        blocks[i, MOMENT_BY_ROTATION, j, k] = by_angle * along
+                blocks[i, MOMENT_BY_ROTATION, j, j] -= c[_LENGTH] * secant * y * arm
 
     return _FrictionKernels(friction_moments, friction_tangents)
 
