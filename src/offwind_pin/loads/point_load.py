@@ -580,7 +580,9 @@ def dissipated_power(load: KernelLoad, blocks: Array, rate: Array) -> float:
     """
     velocity, angular_velocity = rate[:, :3], rate[:, 3:]
     power = -np.einsum("ni,nij,nj", velocity, blocks[:, BY_VELOCITY], velocity)
-    power -= np.einsum("ni,nij,nj", angular_velocity, blocks[:, MOMENT_BY_ANGULAR_VELOCITY], angular_velocity)
+    power -= np.einsum(
+        "ni,nij,nj", angular_velocity, blocks[:, MOMENT_BY_ANGULAR_VELOCITY], angular_velocity
+    )
     if load.coupling is not None:
         wrench, damper = load.coupling
         power += np.sum(damper * np.einsum("knj,nj->k", wrench, rate) ** 2)

@@ -29,10 +29,10 @@ from offwind_pin.dynamics.reference.chain_kinematics import AxisPoints, ChainMot
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.earthquake.ground_motion import GroundMotion
 from offwind_pin.loads.point_load import (
+    ANGULAR_VELOCITY,
     MOMENT_BY_ANGULAR_VELOCITY,
     MOMENT_BY_POSITION,
     MOMENT_BY_ROTATION,
-    ANGULAR_VELOCITY,
     VELOCITY,
     PointForces,
     PointLoad,

@@ -49,7 +49,8 @@ class CoupledDamping(InertialDamping):
     """k dampers, each on a weighted sum of the velocities of all points.
 
     With the wrenches w_ip of damper i at the points p, its force at each point is
-    -rate_i w_ip s_i with s_i = sum_p w_ip . (velocity, angular_velocity)_p: symmetric, and dissipative where
+    -rate_i w_ip s_i with s_i = sum_p w_ip . (velocity, angular_velocity)_p: symmetric, and
+    dissipative where
     the rate is positive. Wrenches keep their directions in the inertial frame.
 
     Attributes

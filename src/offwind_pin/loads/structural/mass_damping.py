@@ -11,9 +11,9 @@ import numpy as np
 from offwind_pin.base.definition import Array
 from offwind_pin.base.descriptions import one_line
 from offwind_pin.loads.point_load import (
+    ANGULAR_VELOCITY,
     BY_VELOCITY,
     MOMENT_BY_ANGULAR_VELOCITY,
-    ANGULAR_VELOCITY,
     VELOCITY,
     force_kernel,
     tangent_kernel,
