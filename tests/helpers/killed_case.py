@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import offwind_pin as ow
+from helpers.killed_run import Operations
 from offwind_pin.cases.run import run_case
 
 CASE: dict[str, Any] = {
@@ -60,6 +61,12 @@ def run_and_die(directory: Path, last: int, case: dict[str, Any] = CASE) -> None
     """In a process of its own: hooks of an interpreter cannot be removed."""
     sys.addaudithook(Events(last))
     run(directory, case)
+
+
+def run_and_die_at_a_file(directory: Path, last: int) -> None:
+    """At an operation on a file of the run."""
+    sys.addaudithook(Operations(directory, last))
+    run(directory)
 
 
 def run_and_count(directory: Path, counted: Any, case: dict[str, Any] = CASE) -> None:

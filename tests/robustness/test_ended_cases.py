@@ -90,8 +90,13 @@ def test_killed_in_any_phase(
     out = tmp_path / "out"
     draw = random.Random(campaign_seed)
     reached = []
-    for _ in range(6):
-        # A run that resumes has fewer events than a whole one, so that some are not killed.
+    for _ in range(4):  # most events come after the simulation, and most file operations in it
+        last = draw.randint(1, 25)
+        code = start(processes, killed_case.run_and_die_at_a_file, out, last)
+        assert code == -signal.SIGKILL
+        reached.append(phase(out))
+    for _ in range(2):
+        # A run that resumes has fewer events than a whole one, so that it may not be killed.
         code = start(processes, killed_case.run_and_die, out, draw.randint(1, events))
         assert code in (0, -signal.SIGKILL)
         reached.append(phase(out))
