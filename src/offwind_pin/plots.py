@@ -1,7 +1,7 @@
-"""Pictures in one call each, in one style with colours that colour-blind eyes tell apart.
+"""Figures of results, in one style with colours for any kind of colour vision.
 
-Each takes what the analyses return and gives a ``matplotlib.figure.Figure``, which :func:`save`
-writes.
+Each function takes the result of an analysis and returns a ``matplotlib.figure.Figure``, which
+:func:`save` writes.
 
     from offwind_pin import plots
     plots.save(plots.mode_shapes(system, ow.modes(system)), "modes.svg")
@@ -49,12 +49,34 @@ FORMATS = (".svg", ".pdf", ".png")
 
 
 def mode_shapes(system: System, modes: ModalResult) -> Figure:
-    """Unit-peak shapes over height, a panel for each family."""
+    """Unit-peak mode shapes over height, one panel per family.
+
+    Parameters
+    ----------
+    system : System
+    modes : ModalResult
+        Modes of the system.
+
+    Returns
+    -------
+    Figure
+    """
     return pictures.mode_shapes(modes, system.turbine.site.mudline, water=_water(system))
 
 
 def static_states(system: System, states: Mapping[str, StaticResult]) -> Figure:
-    """Deflected shapes and section moments of static states over height, by name."""
+    """Deflected shapes and section moments of static states over height, by name.
+
+    Parameters
+    ----------
+    system : System
+    states : mapping of str to StaticResult
+        States by name in the legend.
+
+    Returns
+    -------
+    Figure
+    """
     return pictures.statics(states, water=_water(system))
 
 
@@ -73,7 +95,11 @@ def psd(
     marked : mapping of str to float, Hz, optional
         Frequencies by name: FA1, 3P, wave, ...
     segment : float, s
-        Of Welch's windows.
+        Length of Welch's windows.
+
+    Returns
+    -------
+    Figure
 
     Raises
     ------
@@ -89,24 +115,52 @@ def psd(
 
 
 def section_load_envelope(results: xr.Dataset) -> Figure:
-    """Smallest, mean and largest section loads over height after the ramp."""
+    """Smallest, mean and largest section loads over height after the ramp.
+
+    Parameters
+    ----------
+    results : Dataset
+        Of :func:`simulate`.
+
+    Returns
+    -------
+    Figure
+    """
     return pictures.section_load_envelope(results)
 
 
 def time_histories(results: xr.Dataset) -> Figure:
-    """Panel of the waves, the tower top and the moment at the mudline over time."""
+    """Waves, tower top and moment at the mudline over time.
+
+    Parameters
+    ----------
+    results : Dataset
+        Of :func:`simulate`.
+
+    Returns
+    -------
+    Figure
+    """
     return pictures.time_histories(results)
 
 
 def p_y_utilisation(system: System, state: StaticResult | xr.Dataset) -> Figure:
     """Displacement, secant stiffness and utilisation of the p-y springs along the pile.
 
-    state : a static one, or a run's results, of which the largest displacements are taken
+    Parameters
+    ----------
+    system : System
+    state : StaticResult or Dataset
+        Static state, or time histories, of which the largest displacements are used.
+
+    Returns
+    -------
+    Figure
 
     Raises
     ------
     InputError
-        The system has no p-y springs, or the run recorded nothing along its pile.
+        The system has no p-y springs, or the run has no records along the pile.
     """
     soil = soil_springs(system)
     if soil is None:
@@ -114,7 +168,7 @@ def p_y_utilisation(system: System, state: StaticResult | xr.Dataset) -> Figure:
             "p_y_utilisation, system",
             f"foundation {system.foundation.name}",
             "distributed_springs",
-            "Build the turbine on them.",
+            "Build the turbine on distributed_springs.",
         )
     if isinstance(state, StaticResult):
         reached = reached_statically(system, soil, state)
@@ -124,7 +178,10 @@ def p_y_utilisation(system: System, state: StaticResult | xr.Dataset) -> Figure:
         low = float(state["height"].min())
         allowed = f"heights down to the toe (z = {soil.height.min():g} m)"
         raise InputError(
-            "p_y_utilisation, state", f"a run recorded down to z = {low:g} m", allowed, "Add them."
+            "p_y_utilisation, state",
+            f"a run recorded down to z = {low:g} m",
+            allowed,
+            "Add heights.",
         )
     found = SoilState.of(soil.curves, reached, "")
     initial = soil.curves.secant(np.zeros(len(reached)))
@@ -135,24 +192,40 @@ def p_y_utilisation(system: System, state: StaticResult | xr.Dataset) -> Figure:
 
 
 def singular_values(modes: OperationalModes, *, highest: float | None = None) -> Figure:
-    """All singular values of the accelerations' cross-spectra, one below another over frequency.
+    """All singular values of the accelerations' cross-spectra over frequency.
 
-    highest : end of the frequency axis in Hz, by default three times the highest mode found
+    Parameters
+    ----------
+    modes : OperationalModes
+    highest : float, Hz, optional
+        End of the frequency axis; by default three times the highest identified frequency.
+
+    Returns
+    -------
+    Figure
     """
     return singular_value_plot(modes, highest)
 
 
 def save(figure: Figure, path: Path | str) -> None:
-    """Write a picture, whole or not at all: ``.svg`` and ``.pdf`` in lines, ``.png`` in dots.
+    """Write a figure atomically, as ``.svg``, ``.pdf`` or ``.png``.
+
+    Parameters
+    ----------
+    figure : Figure
+    path : Path or str
+        File with the ending of a format, such as ``.png``.
 
     Raises
     ------
     InputError
-        Another ending.
+        Another suffix.
     """
     target = Path(path)
     if target.suffix.lower() not in FORMATS:
-        raise InputError("save, path", target.name, f"a name in {', '.join(FORMATS)}", "Rename it.")
+        raise InputError(
+            "save, path", target.name, f"a name ending in {', '.join(FORMATS)}", "Rename it."
+        )
     with whole_file(target) as temporary:
         save_figure(figure, temporary)
 

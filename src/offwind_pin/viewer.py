@@ -1,10 +1,10 @@
-"""Pages that move, in one call each, and a server that shows them on this computer.
+"""Animated pages of results, and a server that shows them on this computer.
 
     from offwind_pin import viewer
     viewer.serve(viewer.mode_shapes(system, ow.modes(system)))
 
-A page is one HTML text with Meshcat's viewer in it. It needs neither server nor network: written to
-a file it opens in any browser.
+A page is a single HTML text that includes Meshcat's viewer. It needs neither server nor network:
+written to a file, it opens in any browser.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from offwind_pin.analysis.modal import ModalResult
 from offwind_pin.display.viewer.serve import address, page_server
 from offwind_pin.display.viewer.view import View
 from offwind_pin.dynamics.system import System
-from offwind_pin.results.reading import open_results
+from offwind_pin.results.reading import open_checked
 
 __all__ = ["mode_shapes", "serve", "time_history"]
 
@@ -31,10 +31,16 @@ def mode_shapes(system: System, modes: ModalResult, labels: Sequence[str] | None
 
     Parameters
     ----------
+    system : System
     modes : ModalResult
-        Of this system.
+        Modes of the system.
     labels : sequence of str, optional
-        Modes shown first, such as ``["FA1", "SS1"]``; by default the first that bend.
+        Modes shown first, such as ``["FA1", "SS1"]``; by default the first bending modes.
+
+    Returns
+    -------
+    str
+        HTML text.
 
     Raises
     ------
@@ -48,23 +54,28 @@ def mode_shapes(system: System, modes: ModalResult, labels: Sequence[str] | None
 def time_history(
     results: xr.Dataset | Path | str, start: float | None = None, duration: float | None = None
 ) -> str:
-    """Page of a time history: structure, sea, loads and forces of the soil in motion.
+    """Animated page of a time history: structure, sea, loads and soil forces.
 
     Parameters
     ----------
     results : Dataset, Path or str
-        Of :func:`simulate`, or a directory of ``offwind run`` or its ``results.nc``.
+        Result of :func:`simulate`, or a directory of ``offwind run``, or its ``results.nc``.
     start, duration : float, s, optional
-        Of the part shown; by default the first 60 s after the ramp.
+        Part to show; by default the first 60 s after the ramp.
+
+    Returns
+    -------
+    str
+        HTML text.
 
     Raises
     ------
     InputError
-        No such results, or a part that they do not have.
+        No such results, or a part outside them.
     """
     if isinstance(results, xr.Dataset):
         return View(results, start, duration).page()
-    with open_results(results) as tree:
+    with open_checked(results) as tree:
         return View(tree.to_dataset(), start, duration).page()
 
 
@@ -82,11 +93,11 @@ def serve(
     page : str
         HTML text.
     port : int
-        By default any that is free.
+        Port; 0 for any free one.
     browser : bool
         Whether to open the page in a browser.
     announce : callable
-        Is given a line with the address once the page can be loaded.
+        Called with a line that contains the address once the page can be loaded.
 
     Raises
     ------
@@ -95,7 +106,7 @@ def serve(
     """
     with page_server(page, port) as server:
         url = address(server)
-        announce(f"{url}   (Ctrl-C ends)")
+        announce(f"{url}   (Ctrl-C to stop)")
         if browser:
             webbrowser.open(url)
         with suppress(KeyboardInterrupt):

@@ -137,7 +137,7 @@ FAULTS: dict[str, tuple[str, int, str]] = {
     "NaN": ("0 1\n1 nan\n", 2, "line 2, column 2.*nan"),
     "infinity by overflow": ("0 1\n1 1e999\n", 2, "line 2, column 2.*1e999"),
     "an empty cell": ("0,1,2\n1,,2\n", 3, "line 2, column 2"),
-    "a NUL": ("0 1\n1 \0\n", 2, "no text"),
+    "a NUL": ("0 1\n1 \0\n", 2, "not text"),
     "times in ms by name": ("# time [ms], force\n0 1\n1 2\n", 2, r"time \[ms.*convert|Convert"),
     "times in ms by header": ("t_ms eta\n0 1\n1 2\n", 2, "t_ms"),
     "times in minutes": ("# time (min)\n0 1\n1 2\n", 2, "time in s"),

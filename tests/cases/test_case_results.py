@@ -337,7 +337,7 @@ class TestStates:
         state = ow.static(clamped_dry, np.array([1e6, 0, 0, 0, 0, 0]))
         again = ow.StaticResult.from_dataset(state.to_dataset())
         assert again.loads is None
-        with pytest.raises(ow.InputError, match="without the loads"):
+        with pytest.raises(ow.InputError, match="does not contain the loads"):
             ow.modes(clamped_dry, 3, again)
 
     def test_modes_come_back(self, coupled_wet: ow.System, tmp_path: Path) -> None:

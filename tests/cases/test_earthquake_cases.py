@@ -126,13 +126,13 @@ def test_at2_files(folder: Path) -> None:
 
 
 FAULTS: dict[str, tuple[dict[str, Any], list[str]]] = {
-    "no file": ({"scale": 2.0}, ["either file", "at2"]),
+    "no file": ({"scale": 2.0}, ["both given, or neither", "at2"]),
     "no unit": ({"file": "record.txt", "components": ["x", "z"]}, ["acceleration_unit"]),
     "no components": ({"file": "record.txt", "acceleration_unit": "g"}, ["components"]),
     "unknown unit": (RECORD | {"acceleration_unit": "gal"}, ["m_per_s2", "cm_per_s2"]),
     "unknown axis": (RECORD | {"components": ["x", "w"]}, ["components"]),
     "unknown key": (RECORD | {"factor": 2.0}, ["factor"]),
-    "scale of nothing": (RECORD | {"scale": 0.0}, ["leaves no earthquake"]),
+    "scale of nothing": (RECORD | {"scale": 0.0}, ["a scale of 0"]),
     "start before the beginning": (RECORD | {"start_s": -1.0}, ["start_s"]),
     "start after the end": (RECORD | {"start_s": 30.0}, ["a start at 30 s"]),
     "baseline": (RECORD | {"baseline": "linear"}, ["parabolic"]),
@@ -142,7 +142,7 @@ FAULTS: dict[str, tuple[dict[str, Any], list[str]]] = {
     ),
     "file and levels": (
         RECORD | {"levels": [RECORD | {"z_m": -20.0}, RECORD | {"z_m": -75.0}]},
-        ["to each of them"],
+        ["file and at2", "in each level"],
     ),
     "one level": ({"levels": [RECORD | {"z_m": -20.0}]}, ["levels"]),
     "levels that stop above the toe": (
@@ -176,7 +176,7 @@ def test_bad_earthquakes(fault: str, folder: Path) -> None:
 
 def test_only_time_histories_are_shaken(folder: Path) -> None:
     path = case(folder, RECORD, analysis={"kind": "modes", "count": 4})
-    with pytest.raises(ow.InputError, match="does not take earthquake"):
+    with pytest.raises(ow.InputError, match="does not use earthquake"):
         load_case(path)
 
 

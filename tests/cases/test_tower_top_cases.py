@@ -81,8 +81,8 @@ def test_mistakes_are_guessed(tmp_path: Path, caplog: pytest.LogCaptureFixture) 
     rows = "\n".join(f"{t:.2f} 900 0 0 0 0 0" for t in TIME)
     (tmp_path / "wind.txt").write_text(rows)
     summary = run(tmp_path, {"kind": "file", "file": "wind.txt"})
-    assert "look like kN" in summary["tower_top_load_cautions"][0]
-    assert "look like kN" in caplog.text
+    assert "seem to be in kN" in summary["tower_top_load_cautions"][0]
+    assert "seem to be in kN" in caplog.text
     scaled = run(tmp_path, {"kind": "file", "file": "wind.txt", "factor": 1000})
     assert scaled["tower_top_load_cautions"] == []
     more = scaled["mudline_moment_y_mean_Nm"] - summary["mudline_moment_y_mean_Nm"]

@@ -131,7 +131,7 @@ def test_bad_arguments(undamped: ow.Turbine, name: str) -> None:
 def test_band_beyond_the_spectrum() -> None:
     """A band that the sampling cannot see is refused, not made up."""
     frequency = np.linspace(0, 1.0, 101)
-    with pytest.raises(ow.InputError, match="Sample more often"):
+    with pytest.raises(ow.InputError, match="higher sampling rate"):
         band_sum(frequency, np.ones(101), 1.0, 1.5)
     assert band_sum(frequency, np.ones(101), 0.2, 0.3) == pytest.approx(0.1)
 
@@ -153,7 +153,7 @@ def test_places_that_cannot_be_written(offwind: Any, tmp_path: Path) -> None:
     ):
         code, _, err = offwind(*argv)
         assert code == 2
-        assert "a directory, but" in err
+        assert "a directory;" in err
     assert blocking.read_text() == "kept"
 
 

@@ -30,7 +30,7 @@ FAULTS: dict[str, tuple[dict[str, Any], list[str]]] = {
     "coefficient as text": (drag("high"), ["drag_coefficient", "high"]),
     "heights that do not rise": (
         drag({"z_m": [0, -30], "value": [1.0, 1.2]}),
-        ["drag_coefficient", "z_m must rise", "Sort"],
+        ["drag_coefficient", "z_m must increase", "Sort"],
     ),
     "table of unequal columns": (
         drag({"z_m": [-30, 0], "value": [1.0, 1.2, 1.3]}),
@@ -42,7 +42,7 @@ FAULTS: dict[str, tuple[dict[str, Any], list[str]]] = {
     ),
     "numbers that do not rise": (
         drag({"keulegan_carpenter": [5, 5], "value": [1.0, 1.2]}),
-        ["keulegan_carpenter must rise"],
+        ["keulegan_carpenter must increase"],
     ),
     "a negative number": (
         drag({"keulegan_carpenter": [-5, 5], "value": [1.0, 1.2]}),

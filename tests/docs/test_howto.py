@@ -97,7 +97,7 @@ def test_kilonewtons_are_guessed(folder: Path, run: Any, caplog: pytest.LogCaptu
     assert "factor: 1000.0" in case
     caplog.clear()
     run(["offwind", "run", "forgotten.yaml", "--out", "forgotten"])
-    assert any("they look like kN" in record.message for record in caplog.records)
+    assert any("seem to be in kN" in record.message for record in caplog.records)
 
 
 def test_aliases_are_those_of_the_dataset() -> None:

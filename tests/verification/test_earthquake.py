@@ -26,7 +26,7 @@ ARM = LENGTH / 2
 def single_mass(period: float, ratio: float) -> ow.System:
     """One element of a hundred thousandth of the mass on top: a joint, a spring, a damper.
 
-    The weight takes m g / arm off the spring, as an upright pendulum's does.
+    The weight reduces the spring stiffness by m g / arm, as in an inverted pendulum.
     """
     turbine = tube(length=LENGTH, density=100.0, gravity=GRAVITY, top_mass=MASS)
     system = ow.build(turbine, "clamped", elements=1)

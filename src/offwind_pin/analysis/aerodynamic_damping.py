@@ -1,4 +1,4 @@
-"""What a running rotor adds to the damping of the natural modes."""
+"""Aerodynamic damping of natural modes by an operating rotor."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ class AerodynamicDamping:
     Attributes
     ----------
     label : list of str
-        n labels as in :class:`ModalResult`.
+        Labels of the n modes, as in :class:`ModalResult`.
     frequency_hz : (n,) array
-        Of the modes without aerodynamic damping.
+        Natural frequencies without aerodynamic damping.
     ratio : (n,) array
-        Of critical; negative where the thrust feeds the mode.
+        Damping ratio of critical; negative if the thrust feeds energy to the mode.
     """
 
     label: list[str]
@@ -43,14 +43,30 @@ def aerodynamic_damping(
     inflow_lag: bool = False,
     count: int = 8,
 ) -> AerodynamicDamping:
-    """Damping ratios that the thrust of a running rotor adds, one for each of the first modes.
+    """Damping ratios that the thrust of an operating rotor adds to the first modes.
 
-    wind_speed : mean at the hub in m/s; control, control_time, inflow_lag : see ``RotorThrust``
+    Parameters
+    ----------
+    system : System
+    wind_speed : float, m/s
+        Mean wind speed at the hub.
+    control : {"lagged", "instant"}
+        As for :class:`RotorThrust`.
+    control_time : float, s
+        As for :class:`RotorThrust`.
+    inflow_lag : bool
+        As for :class:`RotorThrust`.
+    count : int
+        Number of modes.
+
+    Returns
+    -------
+    AerodynamicDamping
 
     Raises
     ------
     InputError
-        A turbine without a block ``rotor``, or a wind off its table.
+        A turbine without a block ``rotor``, or a wind speed outside its table.
     """
     disc = rotor_disc(system.turbine)
     thrust = RotorThrust(disc, constant_wind(wind_speed), control, control_time, inflow_lag)

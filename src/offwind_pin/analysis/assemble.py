@@ -1,4 +1,4 @@
-"""Chain, foundation and sea put together."""
+"""Assembly of chain, foundation and sea."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def assemble(
     stiffness: Stiffness = "flexibility",
     element: Element = "euler_bernoulli",
 ) -> System:
-    """A system without structural damping, but with its tuned mass dampers.
+    """A system without structural damping, but with tuned mass dampers.
 
     See :func:`build` for the arguments.
     """

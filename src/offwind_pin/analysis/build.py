@@ -1,4 +1,4 @@
-"""From a turbine definition to a system that can be solved."""
+"""From a turbine definition to a system of equations."""
 
 from __future__ import annotations
 
@@ -25,32 +25,36 @@ def build(
     stiffness: Stiffness = "flexibility",
     element: Element = "euler_bernoulli",
 ) -> System:
-    """Chain, foundation and sea of a turbine as one system, with its structural damping.
+    """Assemble chain, foundation and sea of a turbine, with structural damping.
 
     Parameters
     ----------
+    turbine : Turbine
     foundation : str or Foundation
-        A name, ``"clamped"`` for example, of the kinds in
-        :mod:`offwind_pin.analysis.foundation.registry`, or a :class:`Foundation`.
+        Name of a kind of foundation, such as ``"clamped"`` or ``"distributed_springs"``, or a
+        :class:`Foundation`.
     sea : Sea, optional
-        :class:`StillWater`, :class:`IrregularWaves`, or None for a dry structure.
+        Sea state, such as :class:`StillWater`; None for a dry structure.
     elements : int, dict of str to int, or None
-        Number of multibody beam elements in all, by region, or None for the default, which puts the
-        first five frequencies within 0.1 % of the converged ones.
+        Number of multibody beam elements, in total or by region (``{"tower": 30}``). The default
+        gives the first five frequencies within 0.1 % of the converged ones.
     stiffness : {"flexibility", "midpoint"}
-        ``"flexibility"`` or ``"midpoint"``, see :func:`build_chain`.
+        Rule for the joint stiffness: integrated flexibility of the element, or the paper's EI / l
+        at mid-height.
     element : {"euler_bernoulli", "timoshenko"}
-        ``"euler_bernoulli"``, or ``"timoshenko"`` for elements that shear as well.
+        Beam element; ``"timoshenko"`` includes shear.
+
+    Returns
+    -------
+    System
 
     Raises
     ------
     InputError
-        An argument or a part of the turbine that cannot be used.
+        An invalid argument or part of the turbine.
     """
     if not (sea is None or isinstance(sea, Sea)):
-        raise InputError(
-            "sea", sea, "StillWater(), IrregularWaves(...) or None", "Give one of them."
-        )
+        raise InputError("sea", sea, "a sea such as StillWater(), or None", "Give one of them.")
     system = assemble(
         turbine,
         make_foundation(turbine, foundation),

@@ -1,4 +1,4 @@
-"""What results carry so that figures, pages and reports can be made from them alone."""
+"""Data stored in results so that figures, pages and reports can be made from results alone."""
 
 from __future__ import annotations
 
@@ -24,15 +24,15 @@ Constants = dict[str, tuple[str, Array, dict[str, str]]]
 _SHOWN_DEPTHS = (1 / 15, 2 / 15, 1 / 4, 1 / 2, 3 / 4)
 """Depths over the embedded length at which a report shows p-y curves."""
 _UNUSED_END = 0.05
-"""m, end of the shown curves where nothing is known of the displacements reached."""
+"""m, end of the shown curves if the displacements reached are unknown."""
 _FULL_END = 0.1
 """End of the stored curves over the diameter of the pile."""
 
 
 def drawing_data(system: System) -> Constants:
-    """The outline of the wall, and the waves as components if there are any.
+    """Outline of the wall, and wave components.
 
-    Of a sea with more than 4000 components the fewest are kept that contain 99.9 % of its variance.
+    Of a sea with more than 4000 components, the fewest with 99.9 % of the variance are kept.
     """
     return outline(system) | _waves(system)
 
@@ -66,7 +66,7 @@ def static_dataset(system: System, state: StaticResult) -> xr.Dataset:
 
 
 def modes_dataset(system: System, result: ModalResult) -> xr.Dataset:
-    """Natural modes with their provenance and the data that a picture of them needs."""
+    """Natural modes with their provenance and the data for drawing them."""
     attributes = system_attributes(system) | drawing_attributes(system) | _root(system)
     drawn = outline(system) | _springs(system) | _strokes(system, result)
     return result.to_dataset().assign(drawn).assign_attrs(attributes)
@@ -108,7 +108,8 @@ def _strokes(system: System, result: ModalResult) -> dict[str, Any]:
 
 
 def outline(system: System) -> Constants:
-    """Outer diameters at both ends of all frusta, upwards; heights repeat where it jumps."""
+    """Outer diameters at both ends of all frusta, upwards; heights repeat where the diameter
+    jumps."""
     chain = system.chain
     ends = [
         end
@@ -123,7 +124,7 @@ def outline(system: System) -> Constants:
 
 
 def structure_dataset(system: System) -> xr.Dataset:
-    """Dimensions, masses and foundation of a system, for its drawing and its table of facts."""
+    """Dimensions, masses and foundation of a system, for drawings and tables."""
     chain, turbine = system.chain, system.turbine
     boundary = chain.boundary
     member, height, diameter = _stations(system)
@@ -255,8 +256,8 @@ def damping_dataset(system: System) -> xr.Dataset | None:
 def soil_dataset(soil: SoilSprings, mudline: float, reached: Array | None = None) -> xr.Dataset:
     """Lateral p-y curves at all nodes of a pile, and the displacements reached.
 
-    The curves have 201 points up to what a report shows, and further ones up to a tenth of the
-    diameter of the pile.
+    The curves have 201 points in the range that a report shows, and further ones up to a tenth of
+    the pile diameter.
 
     Parameters
     ----------

@@ -1,8 +1,8 @@
-"""The two engines that evaluate the equations of motion, by name.
+"""The two implementations of the equations of motion, by name.
 
-``"compiled"`` is the chain's own recursion in O(N); ``"pinocchio"`` takes the rigid bodies and
-their derivatives from Pinocchio and solves with dense matrices. The loads, Newton's method and
-generalised-alpha are the same.
+``"compiled"`` is an O(N) recursion for this kind of chain; ``"pinocchio"`` uses Pinocchio for the
+rigid bodies and their derivatives, and dense matrices. Loads, Newton's method and generalised-alpha
+are the same.
 """
 
 from __future__ import annotations
@@ -26,24 +26,24 @@ if TYPE_CHECKING:
 
 
 def check_engine(engine: str) -> None:
-    """Refuse a name that no engine has.
+    """Reject an unknown engine.
 
     Raises
     ------
     InputError
-        With the names allowed.
+        Naming the known engines.
     """
     if engine not in get_args(Engine):
         raise InputError("engine", engine, ", ".join(get_args(Engine)), "Choose one.")
 
 
 def engine_of(integrator: Integrator, engine: Engine | None) -> Engine:
-    """The engine asked for, by default the integrator's first.
+    """The requested engine, by default the integrator's first.
 
     Raises
     ------
     InputError
-        An unknown engine, or one that the integrator does not work with.
+        An unknown engine, or one that the integrator does not support.
     """
     if engine is None:
         return integrator.engines[0]
@@ -106,7 +106,7 @@ def moving_chain(
     ground_motion: GroundMotion | None,
     engine: Engine,
 ) -> CompiledChain:
-    """A system under loads, for motion in time; compiled code records it with either engine."""
+    """A system under loads, for time integration; compiled code records with either engine."""
     if engine == "pinocchio":
         from offwind_pin.dynamics.reference.moving_chain import MovingChain
 

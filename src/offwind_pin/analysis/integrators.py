@@ -29,9 +29,9 @@ _log = logging.getLogger(__name__)
 
 
 class MotionState(NamedTuple):
-    """Where an integration stands; with the system and the settings it determines all that follows.
+    """State of an integration; with the system and the settings it determines all that follows.
 
-    time in s; vectors (6, nv): q, v, acceleration, and what the integrator needs besides; memory
+    time in s; vectors (6, nv): q, v, acceleration, and auxiliary vectors of the integrator; memory
     (m,) of soil and foundation; energy, power (2, L + 2) of the recorder; steps : number of steps
     of the next interval
     """
@@ -75,7 +75,7 @@ class StepFailed(Exception):
 
 
 Sections = tuple[Cuts, Segments]
-"""Cuts at which motion and section loads are recorded, and segments whose balance is."""
+"""Cuts at which motion and section loads are recorded, and segments whose equilibrium is."""
 
 Records = dict[str, Array]
 """Channels by name, over records first; see :class:`Recorder`."""
@@ -121,32 +121,40 @@ class Integrator(ABC):
     def advance(
         self, chain: CompiledChain, sections: Sections, state: MotionState, times: Array
     ) -> tuple[MotionState, Records]:
-        """State at the last of the instants, and records at each of them.
+        """Advance to output times.
 
         Parameters
         ----------
         chain : CompiledChain
-            The system under loads.
-        sections : tuple of Cuts and Segments
-            What is recorded.
+            Compiled equations of motion.
+        sections : Sections
+            Heights and segments to record.
         state : MotionState
-            From which it starts.
+            State at the last output.
         times : (t,) array, s
-            Instants of the outputs.
+            Output times.
 
         Returns
         -------
-        tuple of MotionState and dict of str to array
+        state : MotionState
+            State at the last output.
+        records : Records
+            Records at all outputs.
 
         Raises
         ------
         StepFailed
-            With what the policy allows, a step did not converge.
+            A step did not converge with any step that the policy allows.
         """
 
     @abstractmethod
     def describe(self) -> dict[str, Any]:
-        """Plain data for the results."""
+        """Settings as attributes of the results.
+
+        Returns
+        -------
+        dict of str to object
+        """
 
 
 class OneStepMethod(Integrator):
@@ -231,7 +239,7 @@ class GeneralizedAlpha(Integrator):
     Attributes
     ----------
     policy : StepPolicy
-        Of the steps.
+        Policy of the step size.
     spectral_radius : float
         Numerical damping at infinite frequency, 1 for none.
     relative_tolerance, increment_tolerance : float
@@ -280,7 +288,7 @@ class GeneralizedAlpha(Integrator):
         time: float,
         interval: float,
     ) -> tuple[MotionState, Records]:
-        """One interval, done again with more steps until the policy is content."""
+        """One interval, repeated with more steps until the policy accepts it."""
         while True:
             attempt = self._try(chain, sections, state, np.array([time]))
             error = attempt.error if isinstance(attempt, _Advanced) else np.inf
@@ -327,7 +335,7 @@ class GeneralizedAlpha(Integrator):
         return _Advanced(after, _channels(recorder, step), float(error))
 
     def _number(self, time: float, interval: float) -> int:
-        """Number of the step that ends at a time, in the steps that the policy begins with."""
+        """Index of the step that ends at a time, in steps of the policy's first size."""
         return round(time / interval * self.policy.first(interval))
 
     def describe(self) -> dict[str, Any]:
@@ -342,17 +350,17 @@ class GeneralizedAlpha(Integrator):
 
 @dataclass(frozen=True)
 class SciPyIVP(Integrator):
-    """SciPy's solvers for stiff equations on the same equations of motion, by Pinocchio.
+    """SciPy's solvers for stiff equations, with the equations of motion by Pinocchio.
 
-    The Jacobian is analytic. A second implementation rather than a fast one; the energies
-    dissipated and worked are summed from output to output only.
+    The Jacobian is analytic. This is an independent implementation for checks, not a fast one;
+    dissipated energy and work are summed from output to output only.
 
     Attributes
     ----------
     method : {"Radau", "BDF", "LSODA"}
-        ``"Radau"``, ``"BDF"`` or ``"LSODA"``.
+        Method of :func:`scipy.integrate.solve_ivp`.
     relative_tolerance, absolute_tolerance : float, m and rad
-        Of displacements and of their rates.
+        Tolerances of displacements and of their rates.
     """
 
     method: Literal["Radau", "BDF", "LSODA"] = "Radau"
@@ -368,8 +376,8 @@ class SciPyIVP(Integrator):
             raise InputError(
                 "integrator",
                 f"SciPy's {self.method}",
-                "generalised-alpha, for soil or a foundation with a memory",
-                "Leave the integrator out, or choose elastic springs.",
+                "generalised-alpha, for soil or a foundation with memory",
+                "Leave the integrator out, or use elastic springs.",
             )
         rest = np.zeros_like(q)
         a = chain.equations().acceleration(0.0, q, rest)
@@ -405,7 +413,7 @@ class SciPyIVP(Integrator):
         )
         if not solution.success:
             time = float(solution.t[-1]) if len(solution.t) else state.time
-            reason = f"SciPy's {self.method} gave up: {solution.message}"
+            reason = f"SciPy's {self.method} failed: {solution.message}"
             raise StepFailed(reason, time, np.zeros(n), len(solution.t))
         recorder = _resumed_recorder(chain, sections, state, 1, len(times))
         vectors = state.vectors
@@ -431,7 +439,7 @@ class SciPyIVP(Integrator):
 def first_record(
     chain: CompiledChain, sections: Sections, state: MotionState
 ) -> tuple[MotionState, Records]:
-    """Record of the start, and the state with the powers there."""
+    """Record at the start, and the state with the powers there."""
     recorder = _resumed_recorder(chain, sections, state, 1, 1)
     q, v, a = state.vectors[:3]
     chain.note(recorder, chain.time_inputs(np.zeros(1))[0], q, v, a, load_scale(chain.system))
@@ -468,7 +476,7 @@ def _at_start(chain: CompiledChain, vectors: Array, steps: int) -> MotionState:
 def _resumed_recorder(
     chain: CompiledChain, sections: Sections, state: MotionState, every: int, records: int
 ) -> Recorder:
-    """A recorder whose sums go on from a state; the first record is due after ``every`` steps."""
+    """A recorder that continues sums from a state; the first record is after ``every`` steps."""
     recorder = chain.recorder(sections, every, records)
     recorder.clock[0] = state.time
     recorder.energy[:], recorder.power[:] = state.energy, state.power
@@ -476,7 +484,7 @@ def _resumed_recorder(
 
 
 def _too_inexact(attempt: _Advanced, step: float) -> StepFailed:
-    reason = f"the local error is {attempt.error:.3g} still with steps of {step:.3g} s"
+    reason = f"the local error is still {attempt.error:.3g} with steps of {step:.3g} s"
     nothing = np.zeros(attempt.state.vectors.shape[1])
     return StepFailed(reason, attempt.state.time, nothing, round(attempt.state.time / step))
 

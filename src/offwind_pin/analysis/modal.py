@@ -1,4 +1,4 @@
-"""Natural modes about a static state, labelled by what moves."""
+"""Natural modes about a static state, labelled by direction."""
 
 from __future__ import annotations
 
@@ -27,11 +27,11 @@ if TYPE_CHECKING:
 
 _FAMILY_OF_JOINT = {"px": "FA", "ry": "FA", "py": "SS", "rx": "SS", "rz": "T", "pz": "V"}
 _MOSTLY = 0.5
-"""Share of the potential energy in springs of tuned mass dampers that makes a mode theirs."""
+"""Share of the potential energy in springs of tuned mass dampers above which a mode is theirs."""
 _EQUAL = 1e-6
-"""Relative difference of squared frequencies below which two modes are one pair."""
+"""Relative difference of squared frequencies below which two modes form a pair."""
 _STILL = 1e-9
-"""Motion of the axis over the largest joint displacement that is rounding."""
+"""Motion of the axis over the largest joint displacement that counts as rounding error."""
 _OF_EACH_MODE = (
     "frequency_hz",
     "damping_ratio",
@@ -61,12 +61,11 @@ class ModalResult:
     damping_asked : (n,) array
         Structural damping ratio that the turbine file asks for; NaN for none.
     label : list of str
-        n labels FA1, SS1, T1, V1, ... numbered by frequency within each family, the modes of tuned
-        mass dampers left out: these are TMD1, TMD2, ..., in each plane as many as dampers slide in
-        it, with the largest share of the potential energy in their springs, half or more.
+        Labels FA1, SS1, T1, V1, ..., numbered by frequency within each family. Modes of tuned mass
+        dampers are TMD1, TMD2, ...: in each plane up to the number of dampers that slide in it,
+        those with the largest share of the potential energy in damper springs, at least half.
     participation : (n, 4) array
-        Share of the potential energy in FA, SS, T, V, a damper's springs in the plane that they act
-        in.
+        Share of the potential energy in FA, SS, T, V; dampers' springs count in their plane.
     damper_share : (n,) array
         Share of the potential energy in the springs of tuned mass dampers.
     height : (m,) array, m
@@ -81,7 +80,7 @@ class ModalResult:
     shape_peak_height_ratio : (n,) array
         Height of the peak from mudline (0) to yaw bearing (1).
     engine : {"compiled", "pinocchio"}
-        That evaluated the equations.
+        Engine that evaluated the equations.
     """
 
     frequency_hz: Array
@@ -121,7 +120,17 @@ class ModalResult:
         return html_table("Natural modes", columns, rows)
 
     def index(self, label: str) -> int:
-        """Position of a label.
+        """Index of a mode.
+
+        Parameters
+        ----------
+        label : str
+            Label such as ``"FA1"``.
+
+        Returns
+        -------
+        int
+            Index of the mode in the arrays.
 
         Raises
         ------
@@ -135,7 +144,12 @@ class ModalResult:
         return self.label.index(label)
 
     def to_dataset(self) -> xr.Dataset:
-        """The modes as a labelled dataset."""
+        """The modes as a labelled dataset.
+
+        Returns
+        -------
+        Dataset
+        """
         from offwind_pin.results.states import modal_dataset
 
         return modal_dataset(
@@ -157,7 +171,17 @@ class ModalResult:
 
     @staticmethod
     def from_dataset(data: xr.Dataset) -> ModalResult:
-        """Modes read back from :meth:`to_dataset`."""
+        """Modes read back from :meth:`to_dataset`.
+
+        Parameters
+        ----------
+        data : Dataset
+            From :meth:`to_dataset`.
+
+        Returns
+        -------
+        ModalResult
+        """
         return ModalResult(
             frequency_hz=data["frequency"].to_numpy(),
             damping_ratio=data["damping_ratio"].to_numpy(),
@@ -175,7 +199,12 @@ class ModalResult:
         )
 
     def to_dataframe(self) -> pd.DataFrame:
-        """Table with a row for each mode: frequency, damping, peak and participations."""
+        """Table with one row per mode: frequency, damping, peak and participations.
+
+        Returns
+        -------
+        DataFrame
+        """
         import pandas as pd
 
         columns = {
@@ -203,7 +232,17 @@ class ModalResult:
         )
 
     def direction(self, label: str) -> str:
-        """FA, SS, T or V: how the axis moves in a mode, one of tuned mass dampers as well."""
+        """Direction in which a mode moves.
+
+        Parameters
+        ----------
+        label : str
+            Label such as ``"FA1"``.
+
+        Returns
+        -------
+        str
+        """
         return list(FAMILIES)[int(np.argmax(self.participation[self.index(label)]))]
 
 
@@ -218,12 +257,17 @@ def modes(
 
     Parameters
     ----------
+    system : System
     n : int
         Number of modes.
     about : StaticResult, optional
         Static state; by default that under gravity alone.
     engine : {"compiled", "pinocchio"}
-        What evaluates the equations: ``"compiled"`` or ``"pinocchio"``.
+        Implementation of the equations of motion.
+
+    Returns
+    -------
+    ModalResult
 
     Raises
     ------
@@ -234,16 +278,19 @@ def modes(
     """
     check_engine(engine)
     if not 1 <= n <= system.nv:
-        raise InputError("n", n, f"1 to {system.nv}", "Ask for fewer modes, or use more elements.")
+        raise InputError("n", n, f"1 to {system.nv}", "Use fewer modes or more elements.")
     state = about or static(system, engine=engine)
     if state.q.shape != (system.nv,):
         allowed = f"a static state of this system, with {system.nv} degrees of freedom"
         raise InputError(
-            "about", f"one with {len(state.q)}", allowed, "Solve the static state again."
+            "about",
+            f"a state with {len(state.q)} degrees of freedom",
+            allowed,
+            "Solve the static state again.",
         )
     linear = pencil(system, state, engine)
-    # One mode more than asked for, so that no pair of equal frequency is cut in two; and more where
-    # dampers split modes, so that labels do not depend on how many are asked for.
+    # One mode more than requested, so that no pair of equal frequency is split, and more with
+    # dampers, so that labels do not depend on the number of modes.
     count = n + 1 + 2 * (system.nv - system.chain.axis_joints)
     found = linear.lowest(min(count, system.nv))
     vectors = _separate_planes(system, linear, *found)
@@ -264,7 +311,7 @@ def modes(
     above_mudline = np.flatnonzero(height >= system.turbine.site.mudline - 1e-9)
     for i in range(n):
         if np.abs(shape[i]).max() <= _STILL * np.abs(vectors[:, i]).max():
-            shape[i] = 0.0  # a damper on a clamped base moves nothing else
+            shape[i] = 0.0  # a damper on a clamped base does not move the axis
         shown = shape[i, :, _SHOWN[family[i]]]
         at = above_mudline[np.argmax(np.abs(shown[above_mudline]))]
         size = float(shown[at]) or 1.0
@@ -332,9 +379,9 @@ def _damper_share(system: System, vectors: Array, work: Array) -> Array:
 def _separate_planes(
     system: System, linear: CompiledPencil | DensePencil, squares: Array, vectors: Array
 ) -> Array:
-    """Turn pairs of equal frequency so that one moves fore-aft and the other side-side.
+    """Rotate pairs of equal frequency so that one moves fore-aft and the other side-side.
 
-    On a structure that is the same in every direction any two normal directions are modes.
+    On an axisymmetric structure any two orthogonal directions are modes.
     """
     fore_aft = _family_of_joints(system) == "FA"
     turned = vectors.copy()
@@ -352,7 +399,7 @@ def _family_of_joints(system: System) -> np.ndarray[tuple[int], np.dtype[np.str_
 
 
 def _sliding(system: System) -> dict[str, int]:
-    """How many tuned mass dampers slide in the plane of each family."""
+    """Number of tuned mass dampers that slide in the plane of each family."""
     joints = _family_of_joints(system)[system.chain.axis_joints :].tolist()
     return {family: joints.count(family) for family in FAMILIES}
 

@@ -1,4 +1,4 @@
-"""The waves of a run and their loads as data: profiles, spectra and forces over height."""
+"""Waves of a run and their loads as data: profiles, spectra and forces over height."""
 
 from __future__ import annotations
 
@@ -23,17 +23,17 @@ from offwind_pin.results.reading import analysed
 from offwind_pin.signal.spectra import power_spectral_density
 
 _HEIGHTS = 121
-"""Heights of a profile between the mudline and the highest surface."""
+"""Number of heights of a profile between the mudline and the highest surface."""
 _SEARCHED = 10
-"""Mean wave periods before and after a crest in which its zero crossing and trough are sought."""
+"""Number of mean wave periods around a crest in which its zero crossing and trough are sought."""
 _PER_PERIOD = 200
 _SPECTRUM = 20
-"""Components from which on waves have a spectrum."""
+"""Number of components from which waves have a spectrum."""
 _AT_ONCE = 2000
 _MOST_INSTANTS = 20000
-"""Instants of an envelope of forces; of a longer time every second one, third one, ..."""
+"""Largest number of instants of an envelope of forces; longer times are thinned."""
 _SHOWN_DEPTH = 5e-3
-"""A spectrum is shown where it exceeds this share of its largest value."""
+"""Fraction of its largest value above which a spectrum is shown."""
 _TARGET_LINES = 400
 INSTANTS = ("crest", "zero crossing before it", "trough after it")
 
@@ -50,15 +50,14 @@ def waves_dataset(
     Parameters
     ----------
     histories : Dataset or None
-        Time histories, or None where none exist.
+        Time histories, if any.
     segment : float, s
-        Longest Welch segment of the spectrum of the run.
+        Longest Welch segment of the run's spectrum.
 
     Returns
     -------
     Dataset or None
-        None for a sea without waves; without histories after the ramp it consists of attributes
-        alone.
+        None for a sea without waves; without histories after the ramp it has attributes only.
     """
     hydrodynamics, sea = system.hydrodynamics, system.sea
     waves = None if hydrodynamics is None else hydrodynamics.surface.waves
@@ -183,7 +182,7 @@ def _spectrum_variables(run: Spectrum, bands: Spectrum, target: Density | None) 
 
 
 def profiles_of(data: xr.Dataset) -> list[Profile]:
-    """The profiles of :func:`waves_dataset`."""
+    """Profiles of :func:`waves_dataset`."""
     height, current = data["profile_height"].to_numpy(), data["current"].to_numpy()
     shown = []
     for i in range(data.sizes["instant"]):
@@ -203,7 +202,7 @@ def profiles_of(data: xr.Dataset) -> list[Profile]:
 
 
 def worst_force_of(data: xr.Dataset) -> ForcePerLength:
-    """The forces of :func:`waves_dataset` at the instant of the largest mudline moment."""
+    """Forces of :func:`waves_dataset` at the instant of the largest mudline moment."""
     return ForcePerLength(
         np.array([float(data.attrs["worst_s"])]),
         data["strip_height"].to_numpy(),
@@ -214,25 +213,26 @@ def worst_force_of(data: xr.Dataset) -> ForcePerLength:
 
 
 def spectrum_of(data: xr.Dataset, name: str) -> Spectrum | None:
-    """The spectrum ``run``, ``band`` or ``target`` of :func:`waves_dataset`."""
+    """Spectrum ``run``, ``band`` or ``target`` of :func:`waves_dataset`."""
     if f"{name}_density" not in data:
         return None
     return data[f"{name}_frequency"].to_numpy(), data[f"{name}_density"].to_numpy()
 
 
 def frequency_range(*spectra: Spectrum | None) -> tuple[float, float]:
-    """Lowest and highest frequency in Hz at which one of some spectra is worth showing."""
+    """Frequency range in Hz over which to show spectra."""
     given = [pair for pair in spectra if pair is not None]
     frequency, density = (np.concatenate(parts) for parts in zip(*given, strict=True))
-    # A quiet run may lie below all of this, and so have no frequency of its own in it
+    # A quiet run may be below the threshold everywhere
     high = frequency[density > _SHOWN_DEPTH * density.max()]
     return float(high.min()), float(high.max())
 
 
 def wave_direction(waves: WaveField) -> Array:
-    """(2,) unit vector along which waves carry their energy.
+    """(2,) unit vector of the mean direction of the waves' energy flux.
 
-    A component's velocity at the surface is in phase with its elevation, along its way.
+    A component's velocity at the surface is in phase with its elevation, in its direction of
+    travel.
     """
     surface = waves.velocity(np.zeros(1))[:2, 0]
     flux = np.real(surface @ np.conj(waves.elevation))
@@ -272,7 +272,7 @@ def phases(surface: WaterSurface, waves: WaveField, crest: float) -> Phases:
     next_up = down + int(np.argmax(after[down:] > 0))
     end = next_up if next_up > down else len(after)
     low = down + int(np.argmin(after[down:end]))
-    # the crossing itself lies between the last two of the samples
+    # the crossing is between the last two samples
     share = before[up - 1] / (before[up - 1] - before[up]) if up > 0 else 0.0
     return Phases(crest, crest - step * (max(up - 1, 0) + share), crest + step * low)
 
@@ -285,11 +285,11 @@ class Profile:
     ----------
     time : float, s
     elevation : float, m
-        Of the surface above the level.
+        Surface above the level.
     height : (n,) array, m
-        From the mudline to where the strips are wet.
+        Heights from the mudline to the surface.
     velocity, acceleration : (n, 2) array, m/s and m/s2
-        Along x and y; the velocity with the current.
+        Along x and y; the velocity includes the current.
     current : (n, 2) array, m/s
     """
 
@@ -302,10 +302,10 @@ class Profile:
 
 
 def profiles(hydrodynamics: HydrodynamicModel, sea: Sea, times: Array) -> list[Profile]:
-    """Of fully grown waves at times (t,) in s, with the sea's own stretching."""
+    """Profiles of waves without ramp at times (t,) in s, with the sea's stretching."""
     surface, mudline = hydrodynamics.surface, hydrodynamics.turbine.site.mudline
     tops = surface.at(times, np.ones(len(times)))
-    # closest at both ends, where currents fall off and waves grow
+    # densest at both ends, where currents decrease and waves increase
     share = (1 - np.cos(np.linspace(0, np.pi, _HEIGHTS))) / 2
     height = np.union1d(mudline + share * (tops.max() - mudline), tops)
     current = np.zeros((len(height), 3))
@@ -329,7 +329,7 @@ def profiles(hydrodynamics: HydrodynamicModel, sea: Sea, times: Array) -> list[P
 
 
 def target_density(sea: Sea, depth: float, gravity: float) -> Density | None:
-    """Spectrum in m2/Hz, of frequencies in Hz, that a sea was drawn from; None if from none."""
+    """Spectrum in m2/Hz over frequency in Hz from which a sea was generated, or None."""
     if not isinstance(sea, IrregularWaves):
         return None
     target = sea.target
@@ -337,24 +337,24 @@ def target_density(sea: Sea, depth: float, gravity: float) -> Density | None:
 
 
 def has_spectrum(waves: WaveField) -> bool:
-    """Whether waves have so many components that a density means something."""
+    """Whether waves have enough components for a density to be meaningful."""
     return int(np.count_nonzero(waves.elevation)) >= _SPECTRUM
 
 
 def component_density(waves: WaveField, width: float) -> tuple[Array, Array]:
-    """Variance of the components in m2/Hz, gathered in bands of a width in Hz or a little more.
+    """Variance density of the components in m2/Hz, in bands of at least a width in Hz.
 
-    Bands are made of a whole number of harmonics, so that each holds as many as the next; the
-    last, incomplete one is left out. Waves that one band holds all of make one as wide as they are.
+    All bands have the same number of harmonics; a last, incomplete one is omitted. Waves narrower
+    than one band form a single band of their own width.
 
     Returns
     -------
     frequency : (b,) array, Hz
-        Middles of the bands.
+        Centres of the bands.
     density : (b,) array, m2/Hz
     """
     each = max(1, int(np.ceil(width * waves.period)))
-    moving = waves.harmonic > 0  # the set-down of waves of second order is no variance
+    moving = waves.harmonic > 0  # the set-down of second-order waves has no variance
     harmonic = waves.harmonic[moving].astype(np.intp)
     variance = np.zeros(int(harmonic.max()) + 1)
     np.add.at(variance, harmonic, np.abs(waves.elevation[moving]) ** 2 / 2)
@@ -368,7 +368,7 @@ def component_density(waves: WaveField, width: float) -> tuple[Array, Array]:
 
 @dataclass(frozen=True)
 class ForcePerLength:
-    """Forces in N/m on strips along one direction, over all their length, wet or not.
+    """Forces in N/m on strips in one direction, over their whole length, wet or dry.
 
     Attributes
     ----------
@@ -391,16 +391,16 @@ class ForcePerLength:
 
     @property
     def resultant(self) -> Array:
-        """(t,) total force of all strips in N."""
+        """(t,) total force on all strips in N."""
         return self.total @ self.length
 
     def moment(self, mudline: float) -> Array:
-        """(t,) of the total force about a height in m, in N m."""
+        """(t,) moment of the total force about a height in m, in N m."""
         return self.total @ (self.length * (self.height - mudline))
 
 
 def force_per_length(force: MorisonForce, time: Array, along: Array) -> ForcePerLength:
-    """Of fully grown waves at times (t,) in s, on a structure that stands upright and still.
+    """Forces of waves without ramp at times (t,) in s on an upright structure at rest.
 
     along : (2,) horizontal unit vector
     """

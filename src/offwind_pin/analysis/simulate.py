@@ -1,4 +1,4 @@
-"""Time histories: from the static state under the mean loads, with every channel recorded."""
+"""Time histories."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ _INERTIAL_SHARE = 0.01
 """Of a section load, that structural damping against the inertial frame may have unsaid."""
 _BLOCK_SECONDS = 20.0
 _BLOCK_STEPS = 2000
-"""A block ends with an output and holds no more than either; it is what a killed run loses."""
+"""A block ends with an output and is no longer than either; a killed run loses at most one."""
 
 
 def simulate(
@@ -75,13 +75,14 @@ def simulate(
     provenance: dict[str, Any] | None = None,
     progress: Progress | None = None,
 ) -> xr.Dataset:
-    """Motion under waves and loads, by default by generalised-alpha with a fixed step.
+    """Time history under waves and loads, by default by generalised-alpha with a fixed step.
 
-    The start is the static state under the mean loads, at rest, unless told. During the ramp, waves
-    and the departures of the loads from their means rise to full strength.
+    By default the simulation starts at rest from the static state under the mean loads. During the
+    ramp, waves and the departures of the loads from their means increase to their full values.
 
     Parameters
     ----------
+    system : System
     duration : float, s
         Simulated time, the ramp included.
     dt : float, s, optional
@@ -91,9 +92,9 @@ def simulate(
         Applied loads: at the yaw bearing a constant load (6,) Fx, Fy, Fz, Mx, My, Mz in N and N m,
         or a history, whose mean is taken over the time after the ramp; or point loads of your own.
     ramp : float
-        Seconds over which the fluctuations rise.
+        Duration in s over which waves and fluctuations increase.
     start : {"static", "undeformed"}
-        ``"static"``, or ``"undeformed"``: gravity and mean loads are applied at t = 0.
+        Initial state; with ``"undeformed"`` gravity and mean loads are applied at t = 0.
     ground_motion : GroundMotion, optional
         An earthquake, at its own times whatever the ramp; displacements and accelerations are
         recorded as they are absolutely, not relative to the ground.
@@ -113,30 +114,28 @@ def simulate(
     overwrite : bool
         Whether earlier results in the directory are replaced instead.
     provenance : dict of str to object, optional
-        Further attributes for the dataset.
+        Additional attributes of the dataset.
     progress : callable, optional
-        Called with the simulated time as it grows.
+        Called with the simulated time in s.
 
     Returns
     -------
     Dataset
-        With ``displacement``, ``acceleration``, ``section_force`` and ``section_moment``
-        over time and height, the mudline and tower-top channels, the applied load, ``soil_force``
-        at the nodes of the soil, the waves, the ground's motion in an earthquake, the displacements
-        of tuned mass dampers, the ledger of energies, the solver's own account, and what a picture
-        needs (:mod:`offwind_pin.analysis.drawing_data`); see ``attrs`` for versions, seeds and
-        settings. With a ``directory`` it reads from the file there, channel by channel as they are
-        asked for.
+        ``displacement``, ``acceleration``, ``section_force`` and ``section_moment`` over time and
+        height, mudline and tower-top channels, applied load, ``soil_force`` at the soil nodes,
+        waves, ground motion, displacements of tuned mass dampers, energies, solver statistics, and
+        data for drawing; ``attrs`` has versions, seeds and settings. With a ``directory`` channels
+        are read from the file when they are used.
 
     Raises
     ------
     InputError
-        An argument that cannot be used, a history that is too short, waves that would repeat, or a
-        time step too long for them.
+        An invalid argument, a history that is too short, waves that would repeat, or a time step
+        that is too long for the waves.
     SolverError
-        A step did not converge; ``results`` holds the dataset so far.
+        A step did not converge; ``results`` is the dataset so far.
     InterruptedSimulation
-        The user stopped it; ``results`` holds the dataset so far.
+        The user stopped the run; ``results`` is the dataset so far.
     """
     save_at = SaveAt() if save_at is None else save_at
     _check_settings(duration, dt, ramp, integrator)
@@ -144,7 +143,10 @@ def simulate(
         raise InputError("start", start, ", ".join(get_args(Start)), "Choose one.")
     if not isinstance(ground_motion, GroundMotion | None):
         raise InputError(
-            "ground_motion", type(ground_motion).__name__, "a GroundMotion or None", "Make one."
+            "ground_motion",
+            type(ground_motion).__name__,
+            "a GroundMotion or None",
+            "Create a GroundMotion.",
         )
     method = integrator or GeneralizedAlpha(FixedStep(_DT if dt is None else dt))
     interval = save_at.output_dt or method.time_step
@@ -162,7 +164,7 @@ def simulate(
     outputs = round(duration / interval)
     if abs(outputs * interval - duration) > 1e-6 * duration:
         raise InputError(
-            "duration", duration, f"a multiple of {interval} s, the output's interval", "Adjust it."
+            "duration", duration, f"a multiple of the output interval, {interval} s", "Adjust it."
         )
     acting = [_point_load(system, load, ramp, duration) for load in loads]
     chain = moving_chain(system, acting, ramp, ground_motion, engine)
@@ -177,7 +179,7 @@ def simulate(
     attributes = _provenance(system, chain.acting, ramp, interval, method)
     attributes |= {"engine": engine, "start": start}
     if ground_motion is not None:
-        attributes |= _told_of(ground_motion, method.time_step or interval, duration)
+        attributes |= _earthquake_attributes(ground_motion, method.time_step or interval, duration)
     attributes |= provenance or {}
     run = {
         **attributes,
@@ -263,15 +265,15 @@ def _advance(
 
 
 def _caution_of_travel(system: System, records: Records, cautioned: set[str]) -> None:
-    """Say once of each tuned mass damper that it goes further than it has room for."""
+    """Warn once for each tuned mass damper that exceeds its travel."""
     for d, mass in enumerate(system.chain.tuned_masses):
         way = np.linalg.norm(records["stroke"][:, d], axis=1)
         if mass.name not in cautioned and np.any(way > mass.travel):
             cautioned.add(mass.name)
             first = int(np.argmax(way > mass.travel))
             _log.warning(
-                "tuned mass damper %s slides %.3g m at t = %.6g s; it has room for %.3g m, and no "
-                "stop is modelled",
+                "tuned mass damper %s slides %.3g m at t = %.6g s, more than its travel of %.3g "
+                "m; end stops are not modelled",
                 mass.name,
                 way[first],
                 records["time"][first],
@@ -313,7 +315,7 @@ def _outputs_per_block(method: Integrator, interval: float) -> int:
 def _recorded_heights(
     system: System, save_at: SaveAt, segments: Sequence[tuple[float, float]]
 ) -> Array:
-    """Heights of the records, rising: those asked for, mudline, top, and the segments' ends."""
+    """Heights of the records in increasing order: those given, mudline, top, and segment ends."""
     chain = system.chain
     asked = chain.boundary if save_at.heights is None else np.array(save_at.heights, dtype=float)
     ends = np.array([z for pair in segments for z in pair])
@@ -391,7 +393,7 @@ def _check_settings(
 def _point_load(
     system: System, load: PointLoad | LoadHistory | Array, ramp: float, duration: float
 ) -> PointLoad:
-    """What was given for a load as one that acts on this system."""
+    """A given load as a point load on this system."""
     if isinstance(load, np.ndarray):
         return constant_load(system.chain.top, load)
     if isinstance(load, LoadHistory):
@@ -509,7 +511,7 @@ def _load_outputs(chain: CompiledChain, time: Array, ramp_factor: Array) -> Bloc
 
 
 def _of_whole_loads(chain: CompiledChain, records: Records) -> Records:
-    """Records whose energies are those of loads, not of their parts in compiled code."""
+    """Records with energies summed by load, not by part of a load in compiled code."""
     counts = [len(parts) for parts in chain.parts]
     if len(counts) == sum(counts):
         return records
@@ -531,7 +533,7 @@ def _travel(system: System) -> dict[str, tuple[str, Array, dict[str, str]]]:
     return {"tuned_mass_travel": ("damper", np.array([mass.travel for mass in dampers]), about)}
 
 
-def _told_of_waves(system: System) -> dict[str, Any]:
+def _wave_attributes(system: System) -> dict[str, Any]:
     """Attributes of the realised waves; what there is to say of them goes to the log, too."""
     facts = wave_facts(system)
     notes, cautions = facts.pop("notes", []), facts.pop("cautions", [])
@@ -539,10 +541,10 @@ def _told_of_waves(system: System) -> dict[str, Any]:
         _log.info("waves: %s", note)
     for caution in cautions:
         _log.warning("waves: %s", caution)
-    told = {f"wave_{name}": value for name, value in facts.items()}
+    attributes = {f"wave_{name}": value for name, value in facts.items()}
     if notes or cautions:
-        told["wave_notes"] = " | ".join([*notes, *cautions])
-    return told
+        attributes["wave_notes"] = " | ".join([*notes, *cautions])
+    return attributes
 
 
 def _ground_levels(system: System, motion: GroundMotion | None) -> Array:
@@ -552,8 +554,8 @@ def _ground_levels(system: System, motion: GroundMotion | None) -> Array:
     return np.array([system.turbine.site.mudline]) if motion.height is None else motion.height
 
 
-def _told_of(motion: GroundMotion, dt: float, duration: float) -> dict[str, str]:
-    """Attributes on an earthquake; what looks wrong with it goes to the log as well."""
+def _earthquake_attributes(motion: GroundMotion, dt: float, duration: float) -> dict[str, str]:
+    """Attributes of an earthquake; cautions also go to the log."""
     cautions = ground_motion_cautions(motion, dt, duration)
     for caution in cautions:
         _log.warning("ground motion: %s", caution)
@@ -574,7 +576,7 @@ def _provenance(
         "foundation": system.foundation.name,
         "sea": repr(system.sea) if system.sea else "dry",
         "wave_seed": -1 if system.sea is None else system.sea.wave_seed,
-        **_told_of_waves(system),
+        **_wave_attributes(system),
         **drawing_attributes(system),
         **({"tower_top_load_origin": "none"} | joined_attributes(loads)),
         "surrogates": " | ".join(text for text in surrogates if text) or "none",

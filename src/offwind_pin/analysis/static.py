@@ -25,7 +25,8 @@ if TYPE_CHECKING:
 
 RELATIVE_TOLERANCE = 1e-10
 """Largest entry of the residual over :func:`load_scale`. Displacements of soil nodes are
-differences of heights, whose rounding alone leaves 1e-12 or more where the shaft carries weight."""
+differences of heights, whose rounding error alone gives 1e-12 or more where the shaft carries
+weight."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,21 +40,24 @@ class StaticResult:
     height : (m,) array, m
         Heights of the element boundaries.
     displacement : (m, 3) array, m
-        Of the axis there.
+        Displacement of the axis.
     rotation : (m, 3) array, rad
-        Small rotation of the axis about x and y (the third is zero).
+        Rotation of the axis about x and y (the third is zero).
     section_load : (m, 6) array
         Force (N) and moment (N m) that the part above exerts on the part below.
     iterations : int
-        Newton steps.
+        Number of Newton steps.
     residual : float
         Largest entry of the residual over the load scale.
+    mudline : float, m
+        Height of the mudline.
     memory : (k,) array
-        What soil and foundation keep of their past once this load has acted.
+        Memory of soil and foundation after this load.
     loads : tuple of PointLoad or None
-        That act; None in a state read from a file that loads acted on, which files leave out.
+        Applied loads; None for a state under loads that was read from a file, which does not
+        contain them.
     engine : {"compiled", "pinocchio"}
-        That evaluated the equations.
+        Engine that evaluated the equations.
     """
 
     q: Array
@@ -93,17 +97,17 @@ class StaticResult:
 
     @property
     def tower_top_displacement(self) -> Array:
-        """(3,) of the yaw bearing in m."""
+        """(3,) displacement of the yaw bearing in m."""
         return self.displacement[-1]
 
     @property
     def tower_top_rotation(self) -> Array:
-        """(3,) of the axis at the yaw bearing in rad."""
+        """(3,) rotation of the axis at the yaw bearing in rad."""
         return self.rotation[-1]
 
     @property
     def mudline_displacement(self) -> Array:
-        """(3,) in m."""
+        """(3,) displacement of the axis at the mudline in m."""
         return self.displacement[self._mudline]
 
     @property
@@ -112,7 +116,12 @@ class StaticResult:
         return self.section_load[self._mudline]
 
     def to_dataset(self) -> xr.Dataset:
-        """The state as a labelled dataset over height."""
+        """The state as a labelled dataset over height.
+
+        Returns
+        -------
+        Dataset
+        """
         from offwind_pin.results.states import static_dataset
 
         return static_dataset(
@@ -131,7 +140,17 @@ class StaticResult:
 
     @staticmethod
     def from_dataset(data: xr.Dataset) -> StaticResult:
-        """A state read back from :meth:`to_dataset`; ``loads`` is None where some acted."""
+        """A state read back from :meth:`to_dataset`; ``loads`` is None if there were any.
+
+        Parameters
+        ----------
+        data : Dataset
+            From :meth:`to_dataset`.
+
+        Returns
+        -------
+        StaticResult
+        """
         load = [data[name].to_numpy() for name in ("section_force", "section_moment")]
         return StaticResult(
             q=data["joint_displacement"].to_numpy(),
@@ -148,7 +167,12 @@ class StaticResult:
         )
 
     def to_dataframe(self) -> pd.DataFrame:
-        """Table over height in m: displacement (m), rotation (rad), section load (N, N m)."""
+        """Table over height in m: displacement (m), rotation (rad), section load (N, N m).
+
+        Returns
+        -------
+        DataFrame
+        """
         import pandas as pd
 
         columns = {f"displacement_{a}": self.displacement[:, i] for i, a in enumerate("xyz")}
@@ -158,7 +182,11 @@ class StaticResult:
         return pd.DataFrame(columns, index=pd.Index(self.height, name="height"))
 
     def acting_loads(self) -> tuple[PointLoad, ...]:
-        """The loads that act.
+        """The applied loads.
+
+        Returns
+        -------
+        tuple of PointLoad
 
         Raises
         ------
@@ -168,8 +196,8 @@ class StaticResult:
         if self.loads is None:
             raise InputError(
                 "static state",
-                "one read from a file, without the loads that acted on it",
-                "a state found by static in this session",
+                "a state read from a file, which does not contain the loads",
+                "a state computed by static in this session",
                 "Solve the state again.",
             )
         return self.loads
@@ -189,26 +217,31 @@ def static(
 ) -> StaticResult:
     """Static equilibrium by Newton's method with the exact tangent.
 
-    Waves do not act; soil, gravity and the means of the given loads do. Soil or a foundation with a
-    memory is loaded for the first time, in one go.
+    Soil, gravity and the means of the given loads act; waves do not. Soil or a foundation with
+    memory is loaded for the first time, in a single step.
 
     Parameters
     ----------
+    system : System
     tower_top_load : (6,) array, N and N m, optional
         Fx, Fy, Fz, Mx, My, Mz at the yaw bearing, inertial frame.
     loads : sequence of PointLoad
         Further point loads.
     after : StaticResult, optional
-        State of the same system whose load acted before, which soil with a memory remembers.
+        Previous state of the same system, for soil with memory.
     engine : {"compiled", "pinocchio"}
-        What evaluates the equations: ``"compiled"`` or ``"pinocchio"``.
+        Implementation of the equations of motion.
+
+    Returns
+    -------
+    StaticResult
 
     Raises
     ------
     InputError
         A load that is not six finite numbers, or an unknown engine.
     SolverError
-        No equilibrium found, with the joint out of balance; or one that is unstable.
+        No equilibrium was found, or it is unstable.
     """
     acting = [*loads]
     if tower_top_load is not None:
@@ -220,7 +253,9 @@ def static(
     if after is not None:
         if after.q.shape != rest.shape or after.memory.shape != chain.memory.shape:
             allowed = "a state of the same system under loads of the same kinds"
-            raise InputError("after", "another system's", allowed, "Solve that state again.")
+            raise InputError(
+                "after", "a state of another system", allowed, "Solve that state again."
+            )
         chain.memory = after.memory
 
     def correction(q: Array, residual: Array) -> Array:
@@ -268,16 +303,16 @@ def static(
 
 
 def load_scale(system: System) -> float:
-    """Size in N m of the terms that a residual balances.
+    """Size in N m of the terms in the residual.
 
-    The weight of everything, on an arm of a hundredth of the structure's height.
+    The total weight times a hundredth of the structure's height.
     """
     chain = system.chain
     return system.turbine.site.gravity * chain.mass * (chain.top - chain.base) / 100
 
 
 def axis_rotation(axis: Array) -> Array:
-    """(..., 3) rotation of upward unit vectors about x and y in rad; torsion is not in it."""
+    """(..., 3) rotation of upward unit vectors about x and y in rad, without torsion."""
     rotation = np.zeros_like(axis)
     rotation[..., 0] = np.arctan2(-axis[..., 1], axis[..., 2])
     rotation[..., 1] = np.arctan2(axis[..., 0], axis[..., 2])

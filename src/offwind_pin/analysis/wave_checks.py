@@ -1,4 +1,4 @@
-"""Statistics of the realised waves, and the waves that a simulation refuses."""
+"""Statistics of the realised waves, and checks before a simulation."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from offwind_pin.loads.sea.sea import LinearSea
 from offwind_pin.loads.sea.waves.statistics import moments
 
 FEWEST_STEPS = 20
-"""Per period of the main waves: the error of the time integration, (omega dt)^2 / 12, is 0.8 %."""
+"""Fewest steps per period of the main waves: the period error, (omega dt)^2 / 12, is 0.8 %."""
 
 
 def wave_facts(system: System) -> dict[str, Any]:
-    """The realised waves in numbers, and what there is to say of them; empty without waves.
+    """Statistics of the realised waves, notes and cautions; empty without waves.
 
     Over one of their periods: ``m0_m2`` (the variance), ``m2_m2_hz2`` (frequencies in Hz),
     ``significant_height_m`` (4 sqrt(m0)) and ``peak_period_s`` of irregular waves,
@@ -47,15 +47,15 @@ def wave_facts(system: System) -> dict[str, Any]:
 
 
 def check_waves(system: System, duration: float, ramp: float, dt: float | None) -> None:
-    """Refuse waves that a simulation of a duration in s cannot show as they are.
+    """Reject waves that a simulation cannot represent.
 
-    ramp in s, over which waves rise; dt the time step in s, None where the solver chooses it
+    duration, ramp and time step dt in s; dt is None if the solver chooses it
 
     Raises
     ------
     InputError
-        Waves that repeat or bare the bed, or a crest that does not come in full; steps too long for
-        them.
+        Waves that repeat or expose the sea bed, a crest outside the fully developed waves, or too
+        long a time step.
     """
     sea, hydrodynamics = system.sea, system.hydrodynamics
     if sea is None or hydrodynamics is None or hydrodynamics.surface.waves is None:
@@ -76,7 +76,7 @@ def check_waves(system: System, duration: float, ramp: float, dt: float | None) 
             "waves",
             f"a trough of {lowest:.3g} m in {waves.depth:.3g} m of water",
             "a surface that stays above the bed",
-            "Lower the waves, or lengthen them. Are heights in m, and densities in m2/Hz?",
+            "Reduce the waves. Are heights in m and densities in m2/Hz?",
         )
     if isinstance(sea, IrregularWaves) and sea.crest is not None:
         time = sea.crest.time

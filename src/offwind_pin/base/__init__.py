@@ -1,1 +1,1 @@
-"""Shared by all rooms: errors, compiled kernels, definitions' base class, tables, whole files."""
+"""Shared by all rooms: errors, compiled kernels, base class of definitions, tables, files."""

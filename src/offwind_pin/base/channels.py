@@ -1,4 +1,4 @@
-"""What a channel of a time history is: one row of the table of channels."""
+"""Definition of a channel of a time history, one row of the table of channels."""
 
 from __future__ import annotations
 
@@ -22,24 +22,24 @@ class Channel:
     Attributes
     ----------
     name : str
-        In the dataset; channels of one name given by several loads are summed.
+        Name in the dataset; channels of the same name given by several loads are summed.
     dims : tuple of str
         Dimensions after ``time``: none, ``("component",)`` for Fx to Mz, or ``("direction",)`` for
         x, y, z.
     units, long_name : str
         Attributes of the channel.
     dtype : {"float64", "float32", "int32"}
-        Of the numbers in ``results.nc``; in memory they have double precision.
+        Type of the numbers in ``results.nc``; in memory they have double precision.
     frame : str
-        Of its directions and signs; empty for a scalar.
+        Frame of its directions and signs; empty for a scalar.
     openfast_alias : str
-        Channels of OpenFAST that give the same.
+        Equivalent channels of OpenFAST.
     record : str
-        Array (t, ...) that it is taken from; empty for one of its own name.
+        Array (t, ...) of the recorder with its values, by default the one of its name.
     at : {"", "mudline", "tower_top"}
-        The height that it is about, where the array is over all recorded heights.
-    part : index
-        Of the array, after that of the height.
+        Height of the channel, if the array has all recorded heights.
+    part : tuple of int, or Ellipsis
+        Index into the array after the height.
     """
 
     name: str
@@ -67,14 +67,18 @@ class Channel:
         return {name: text for name, text in found.items() if text}
 
     def values(self, records: Mapping[str, Array], index: Mapping[str, Any]) -> Array:
-        """The numbers (t, ...).
+        """Values of the channel.
 
         Parameters
         ----------
         records : mapping of str to array
             Arrays by name.
         index : mapping of str to index
-            Entries that are kept, by dimension, and those of the heights that ``at`` names.
+            Entries to keep by dimension, and those of the heights named by ``at``.
+
+        Returns
+        -------
+        (t, ...) array
         """
         found = records[self.record or self.name]
         for name in (self.at, *self.dims):

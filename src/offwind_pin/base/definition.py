@@ -1,4 +1,4 @@
-"""What every definition is made of: numbers with their ranges, files, and the frozen base class."""
+"""Building blocks of definitions: numbers with ranges, files, and the frozen base class."""
 
 from __future__ import annotations
 
@@ -35,15 +35,15 @@ ComplexArray = NDArray[np.complex128]
 LARGEST = 1e30
 """Magnitude beyond which no number is plausible, whatever its unit; products stay finite."""
 MOST_NUMBERS = 1_000_000
-"""In a row; more belong in a file of their own."""
+"""Largest length of a list; longer data belongs in a file."""
 
 
 def _plain(value: Any) -> Any:
-    """A number as Python has it; NumPy's are taken, true and false are not."""
+    """A number as a Python object; accepts NumPy numbers and rejects booleans."""
     if isinstance(value, np.generic):
         value = value.item()
     if isinstance(value, bool):
-        raise ValueError("a number is needed, not true or false")
+        raise ValueError("expected a number, not true or false")
     return value
 
 
@@ -52,11 +52,12 @@ def _listed(value: Any) -> Any:
 
 
 def _locate(value: Any, validate: ValidatorFunctionWrapHandler, info: ValidationInfo) -> Path:
-    """Absolute path of a file; a relative one starts at the folder of the file that names it."""
+    """Absolute path of a file; a relative path refers to the folder of the file that contains
+    it."""
     recorded = None
     if isinstance(value, dict):
         if not {"path"} <= value.keys() <= {"path", "sha256"}:
-            raise ValueError("a file needs a path; give it alone, or as {path, sha256}")
+            raise ValueError("a file requires a path; give the path, or {path, sha256}")
         value, recorded = value["path"], value.get("sha256")
     folder = (info.context or {}).get("folder", "")
     path: Path = (folder / validate(value)).absolute()
@@ -76,11 +77,11 @@ Number = Annotated[
     Field(strict=True, allow_inf_nan=False, ge=-LARGEST, le=LARGEST),
     BeforeValidator(_plain),
 ]
-"""A finite number; text that looks like one is none."""
+"""A finite number; text is rejected."""
 Integer = Annotated[int, Field(strict=True), BeforeValidator(_plain)]
-"""A whole number; 3.0 is none."""
+"""An integer; 3.0 is rejected."""
 Flag = Annotated[bool, Field(strict=True)]
-"""True or false; 1 and "yes" are neither."""
+"""True or false; 1 and "yes" are rejected."""
 Positive = Annotated[Number, Field(gt=0)]
 NonNegative = Annotated[Number, Field(ge=0)]
 Vector3 = tuple[Number, Number, Number]
@@ -91,11 +92,11 @@ Seed = Annotated[Integer, Field(ge=0, lt=2**31)]
 Numbers = Annotated[tuple[Number, ...], Field(max_length=MOST_NUMBERS), BeforeValidator(_listed)]
 """Numbers in a row, from a list, a tuple or a one-dimensional array."""
 File = Annotated[Path, WrapValidator(_locate), PlainSerializer(_file_record, when_used="json")]
-"""Absolute path of a file. JSON has ``{path, sha256}``; reading it refuses a file that changed."""
+"""Absolute path of a file. JSON has ``{path, sha256}``; reading it rejects a changed file."""
 
 
 def key(name: str, *, default: Any = ..., kw_only: bool | None = None) -> Any:
-    """A field that files name otherwise than Python does, usually with its unit.
+    """A field with a different name in files, usually with its unit.
 
     Parameters
     ----------
@@ -107,9 +108,14 @@ def key(name: str, *, default: Any = ..., kw_only: bool | None = None) -> Any:
 
 @dataclass_transform(kw_only_default=True, field_specifiers=(Field, key))
 class Definition(BaseModel):
-    """Base of every definition: frozen, unknown keys rejected, file keys carry units.
+    """Base of every definition: frozen, with unknown keys rejected and units in the keys of files.
 
     A subclass that is declared with ``kw_only=False`` takes its own fields by position as well.
+
+    Attributes
+    ----------
+    source : str, optional
+        Where the numbers come from.
     """
 
     model_config = ConfigDict(
@@ -146,7 +152,7 @@ class Definition(BaseModel):
         Raises
         ------
         InputError
-            A value that cannot be used, named by its field.
+            An invalid value, named by its field.
         """
         called = type(self).__name__
         if len(values) > len(self._positional):
@@ -163,14 +169,14 @@ class Definition(BaseModel):
         except ValidationError as error:
             raise input_error(called, named, error, type(self), by_alias=False) from None
 
-    # Nested definitions are then made by pydantic itself, which keeps the path to a fault.
+    # Lets pydantic make nested definitions itself, which keeps the path to a fault.
     __init__.__pydantic_base_init__ = True  # type: ignore[attr-defined]
 
     def __str__(self) -> str:
         return repr(self)
 
     def __eq__(self, other: object) -> bool:
-        # By fields alone: pydantic compares what cached properties hold too, such as arrays.
+        # By fields alone: pydantic would also compare cached properties, such as arrays.
         return type(self) is type(other) and all(
             getattr(self, name) == getattr(other, name) for name in _fields(type(self))
         )
@@ -189,17 +195,26 @@ class Definition(BaseModel):
     def replace(self, **changes: Any) -> Self:
         """A copy with some fields changed, checked like a new one.
 
+        Parameters
+        ----------
+        **changes : object
+            New values by field.
+
+        Returns
+        -------
+        Definition
+
         Raises
         ------
         InputError
-            A value that cannot be used.
+            An invalid value.
         """
         kept = {name: getattr(self, name) for name in self.model_fields_set}
         return type(self)(**(kept | changes))
 
     @property
     def content_hash(self) -> str:
-        """SHA-256 of all that is defined; files count by their content and not by their path.
+        """SHA-256 of the definition; files count by their content, not by their path.
 
         Raises
         ------
@@ -215,7 +230,7 @@ _LONGEST = 160
 
 
 class _Brief:
-    """A value whose ``repr`` stays short and still tells it from another."""
+    """A value whose ``repr`` is short and still distinguishes it from others."""
 
     def __init__(self, value: object) -> None:
         self._value = value
@@ -232,7 +247,7 @@ class _Brief:
 
 
 def _signature(fields: dict[str, FieldInfo], positional: tuple[str, ...]) -> inspect.Signature:
-    """How a definition is called; pydantic would name fields as files do."""
+    """Signature of a definition; pydantic would use the names in files."""
     parameters: list[inspect.Parameter] = []
     needed = False  # a positional argument before one without a default has none itself
     for name in reversed(positional):
@@ -284,7 +299,7 @@ def file_digest(path: Path) -> str:
     Raises
     ------
     InputError
-        It cannot be read.
+        An unreadable file.
     """
     check_file(path)
     try:
@@ -296,11 +311,11 @@ def file_digest(path: Path) -> str:
 
 
 def origin_of(path: Path) -> str:
-    """Name and digest of a file, for what was read from it.
+    """Name and digest of a file, as an origin of data.
 
     Raises
     ------
     InputError
-        It cannot be read.
+        An unreadable file.
     """
     return f"{path.name} (SHA-256 {file_digest(path)})"

@@ -1,4 +1,4 @@
-"""How objects describe themselves: on one line, and as tables in notebooks."""
+"""Descriptions of objects: on one line, and as tables in notebooks."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ _FEW = 4
 def one_line(thing: Any) -> str:
     """A dataclass on one line: ``Name(field=value, ...)``.
 
-    Fields at their defaults are left out. Of an array the shape is given, of a long sequence the
-    number of items, of a part that is long itself its class.
+    Fields with default values are omitted. Arrays are given by their shape, long sequences by their
+    number of items, and other long values by their class.
     """
     parts = [
         f"{item.name}={_brief(value)}"
@@ -28,7 +28,7 @@ def one_line(thing: Any) -> str:
 
 
 def cut(text: str, longest: int = LONGEST) -> str:
-    """A text that is cut where it is too long."""
+    """A text, truncated if it is too long."""
     return text if len(text) <= longest else f"{text[: longest - 4]}...{text[-1]}"
 
 
@@ -38,7 +38,7 @@ def html_table(title: str, columns: Sequence[str], rows: Iterable[Sequence[objec
     Parameters
     ----------
     columns : sequence of str
-        Headings; none where the first cell of each row names the row.
+        Headings; empty if the first cell of each row names the row.
     """
     head = "".join(f"<th>{html.escape(column)}</th>" for column in columns)
     body = "".join(

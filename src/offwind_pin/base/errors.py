@@ -1,6 +1,6 @@
-"""The project's errors: one small hierarchy, each message naming the mistake and the remedy.
+"""Errors of the package: one small hierarchy with messages that name fault and remedy.
 
-All of them can be copied and pickled, so that a worker process hands them on as they are.
+All of them can be copied and pickled, so that worker processes can pass them on.
 """
 
 from __future__ import annotations
@@ -10,17 +10,16 @@ from typing import Any
 
 
 class OffwindError(Exception):
-    """Base of every error this package raises on purpose."""
+    """Base class of all errors that this package raises."""
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _restored, (type(self), self.args, self.__dict__)
 
 
 class InputError(OffwindError, ValueError):
-    """Something a user gave cannot be used.
+    """Invalid input.
 
-    The message names where it was found (file and field), what was received, what is allowed
-    and what to do about it.
+    The message names file and field, the value received, what is allowed, and a remedy.
 
     Attributes
     ----------
@@ -29,9 +28,9 @@ class InputError(OffwindError, ValueError):
     received : object
         The value, or a phrase that says what is wrong.
     allowed : str
-        What could be there; empty where ``received`` is such a phrase.
+        Allowed values; empty if ``received`` is such a phrase.
     remedy : str
-        One sentence.
+        Remedy in one sentence.
     """
 
     def __init__(self, where: str, received: object, allowed: str, remedy: str) -> None:
@@ -49,7 +48,17 @@ class InputError(OffwindError, ValueError):
         super().__init__(printable(f"{_cut(where, _LONGEST_PLACE)}: {fault}. {remedy}"))
 
     def within(self, where: str) -> InputError:
-        """The same error found within something else, such as a file that names another."""
+        """The same error with a longer location, such as the file that contains the reference.
+
+        Parameters
+        ----------
+        where : str
+            Location that contains the error's own.
+
+        Returns
+        -------
+        InputError
+        """
         return type(self)(f"{where}: {self.where}", self.received, self.allowed, self.remedy)
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -58,16 +67,20 @@ class InputError(OffwindError, ValueError):
 
 
 class SolverError(OffwindError, RuntimeError):
-    """A solve that did not converge, with the place where it stopped.
+    """A solution that did not converge.
 
     Attributes
     ----------
-    time : float or None, s
-        Simulated time of the failed step (``None`` for a static solve).
+    reason : str
+        What failed.
     step : int
         Number of the failed step or iteration.
     joint : str
         Name of the joint with the largest residual.
+    residual : float
+        Largest entry of the residual over the load scale.
+    time : float or None, s
+        Simulated time of the failed step (``None`` for a static solve).
     results : object
         Dataset of the results so far, or None.
     """
@@ -112,17 +125,17 @@ class InterruptedSimulation(OffwindError):
 
 
 def _restored(kind: type[OffwindError], arguments: tuple[Any, ...], state: Any) -> OffwindError:
-    """An error with its message and fields, made without its own arguments."""
+    """An error with its message and fields, created without calling its constructor."""
     error = kind.__new__(kind, *arguments)
     error.__dict__.update(state)
     return error
 
 
 def _portable(value: object) -> object:
-    """The value, or its text where another process could not be given it."""
+    """The value, or its text if it cannot be pickled."""
     try:
         pickle.dumps(value)
-    except Exception:  # whatever a foreign class raises
+    except Exception:  # anything that another class raises
         return repr(value)
     return value
 
@@ -133,7 +146,7 @@ _LONGEST_PLACE = 5000
 
 
 def brief(value: object, limit: int = _LONGEST) -> str:
-    """A value as text of limited length; no more of it is looked at than is shown."""
+    """A value as text of limited length; evaluates no more of it than is shown."""
     return _cut(_beginning(value, limit), limit)
 
 

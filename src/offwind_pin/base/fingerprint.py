@@ -1,4 +1,4 @@
-"""Hashes of content: equal for equal objects in any process, different where a number differs."""
+"""Hashes of content: equal for equal objects in any process, different if any number differs."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ class NoFingerprintError(TypeError):
 def content_hash(*values: object) -> str:
     """SHA-256 of the content of values, at any depth.
 
-    Numbers, texts, arrays and containers of them count, files by what is in them, and objects by
-    their class and the values of their attributes; where an object has a method ``fingerprint``,
-    that counts instead. Of a class from outside the package the source counts as well.
+    The hash covers numbers, strings, arrays and containers of them, files by their content, and
+    objects by their class and attributes, or by their method ``fingerprint`` if they have one. For
+    a class from outside the package it also covers the source.
 
     Raises
     ------
     NoFingerprintError
-        Something else is among the values.
+        A value of another kind.
     """
     digest = hashlib.sha256()
     for value in values:
@@ -98,7 +98,7 @@ def _source(kind: type) -> str:
 
 
 def _attributes(value: Any) -> dict[str, object]:
-    """What an object consists of: its fields, or its attributes without cached results."""
+    """Fields of an object, or its attributes without cached results."""
     kind = type(value)
     if isinstance(value, BaseModel):
         return {name: getattr(value, name) for name in kind.model_fields}

@@ -1,4 +1,4 @@
-"""Files named by a user: checked before they are opened, read as a whole."""
+"""Input files: checked before they are opened, and read as a whole."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _KINDS = {
 
 
 def is_file(path: Path) -> bool:
-    """Whether there is a regular file; False for a path that no file can have."""
+    """Whether a path is a regular file; False for an invalid path."""
     try:
         return path.is_file()
     except (OSError, ValueError):  # too long a name; a NUL in it
@@ -25,7 +25,7 @@ def is_file(path: Path) -> bool:
 
 
 def check_file(path: Path) -> int:
-    """Size in bytes of a regular file; pipes and devices, which could block, are refused.
+    """Size in bytes of a regular file; pipes and devices, which could block, are rejected.
 
     Raises
     ------
@@ -41,7 +41,7 @@ def check_file(path: Path) -> int:
     if not stat.S_ISREG(found.st_mode):
         kind = _KINDS.get(stat.S_IFMT(found.st_mode), "no regular file")
         raise InputError(
-            str(path), kind, "a regular file", "Name a file; write a stream into one first."
+            str(path), kind, "a regular file", "Give a file; write a stream to a file first."
         )
     return found.st_size
 
@@ -52,7 +52,7 @@ def read_bytes(path: Path, most: int | None = None) -> bytes:
     Parameters
     ----------
     most : int, optional
-        Bytes that it may have.
+        Largest size in bytes.
 
     Raises
     ------
@@ -64,8 +64,8 @@ def read_bytes(path: Path, most: int | None = None) -> bytes:
         raise InputError(
             str(path),
             f"{size / 1e6:.3g} MB",
-            f"{most / 1e6:.3g} MB at most",
-            "Is it the right file? Long tables go into files of their own.",
+            f"at most {most / 1e6:.3g} MB",
+            "Is it the right file? Use separate files for long tables.",
         )
     try:
         return path.read_bytes()
@@ -79,7 +79,7 @@ def read_text(path: Path, most: int | None = None) -> str:
     Parameters
     ----------
     most : int, optional
-        Bytes that it may have.
+        Largest size in bytes.
 
     Raises
     ------

@@ -16,12 +16,12 @@ _ORDINALS = {1: "first", 2: "second", 3: "third", 4: "fourth", 5: "fifth", 6: "s
 
 
 def mode_family(label: str) -> str:
-    """FA, SS, T, V or TMD."""
+    """Family of a label: FA, SS, T, V or TMD."""
     return label.rstrip("0123456789")
 
 
 def mode_name(label: str) -> str:
-    """A label in words: ``FA2`` is "second fore-aft"."""
+    """Description of a label: ``FA2`` is "second fore-aft"."""
     family = mode_family(label)
     order = int(label.removeprefix(family))
     return f"{_ORDINALS.get(order, f'{order}th')} {(FAMILIES | _DAMPERS)[family]}"

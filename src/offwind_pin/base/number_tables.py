@@ -1,7 +1,7 @@
 """Text files of numbers; errors name the line.
 
 A file is read in pieces. Each goes to NumPy's parser first; what that does not read, or reads
-differently from the rules below, is read again line by line, which is slow and names the fault.
+differently from the rules below, is read again line by line, which is slower and locates the fault.
 """
 
 from __future__ import annotations
@@ -25,13 +25,13 @@ Array = NDArray[np.float64]
 Lines = NDArray[np.int64]
 
 _GAP = 5.0
-"""Times the median step, beyond which rows are missing."""
+"""Multiple of the median step beyond which rows are missing."""
 _SAMPLED = 20
-"""Steps from which on a file is sampled, and not a table of corners written by hand."""
+"""Number of steps from which a file counts as sampled rather than as a hand-written table."""
 _LONGEST_SPAN = 1e5
 """s; as long as the longest simulation of a case."""
 _PIECE = 4_000_000
-"""Characters that are read at once."""
+"""Number of characters read at once."""
 _LONGEST_LINE = 1_000_000
 
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
@@ -75,7 +75,7 @@ class NumberTable:
     lines : (n,) int array
         Line of each row.
     remarks : str
-        Header and comments, as far as the first rows.
+        Header and comments up to the first rows.
     """
 
     path: Path
@@ -97,7 +97,7 @@ def read_numbers(path: Path, columns: tuple[str, ...]) -> NumberTable:
     def head(cells: list[str], where: str) -> tuple[str, ...]:
         if tuple(cells) != columns:
             allowed = f"the header {','.join(columns)}"
-            raise InputError(where, ",".join(cells), allowed, "Name the columns so.")
+            raise InputError(where, ",".join(cells), allowed, "Correct the header.")
         return columns
 
     table = read_csv(path, head)
@@ -114,12 +114,12 @@ def read_csv(path: Path, head: Callable[[list[str], str], tuple[str, ...]]) -> N
     Parameters
     ----------
     head : callable
-        The names of the columns, from the cells of the header and its place in the file.
+        Function from the cells of the header and its location to the names of the columns.
 
     Raises
     ------
     InputError
-        A missing file, a cell that is not a finite number, and what ``head`` raises.
+        A missing file, a cell that is not a finite number, or an error of ``head``.
     """
 
     def first(line: str, where: str) -> tuple[str, ...]:
@@ -140,19 +140,19 @@ def read_time_columns(
     """Columns of numbers over time in s, the time first.
 
     Columns are separated by blanks or tabs, by commas, or by semicolons; ``#``, ``!`` and ``%``
-    start a comment. A comment or header that names another unit of time (``time [ms]``) is refused.
-    So are times that look like ms, unless a comment or header names s (``time [s]``).
+    start a comment. A comment or header that names another unit of time (``time [ms]``) is
+    rejected, as are times that look like ms, unless a comment or header names s (``time [s]``).
 
     Parameters
     ----------
     count : int
         Number of columns, the time included.
     coarsest : float, s
-        Longer steps look like ms.
+        Step above which times look like ms.
     sampled : int
-        Rows from which on the steps are judged.
+        Number of rows from which the steps are checked.
     fewest : int
-        Number of rows that the file must have.
+        Minimum number of rows.
     header : bool
         Whether the first line may name the columns.
 
@@ -179,17 +179,17 @@ def read_time_columns(
 
 
 def check_times(path: Path, time: Array, place: Lines, counted: str) -> None:
-    """Refuse times (t,) that do not rise, or that leave a gap in evenly sampled ones.
+    """Reject times (t,) that do not rise, or that leave a gap in evenly sampled ones.
 
     Parameters
     ----------
     place : (t,) int array
-        Where they are in the file, in what ``counted`` names.
+        Location of each time in the file, in units of ``counted``.
 
     Raises
     ------
     InputError
-        With the place of the first fault.
+        Naming the location of the first fault.
     """
     step = np.diff(time)
     back = np.flatnonzero(~(step > 0))
@@ -209,8 +209,8 @@ def check_times(path: Path, time: Array, place: Lines, counted: str) -> None:
         i = int(gaps[0])
         raise InputError(
             f"{path}, {counted}s {place[i]} to {place[i + 1]}, column t",
-            f"a step of {step[i]:g} s ({len(gaps)} such)",
-            f"steps of about {usual:g} s, as elsewhere in the file",
+            f"a step of {step[i]:g} s ({len(gaps)} such steps)",
+            f"steps of about {usual:g} s, as in the rest of the file",
             "Are rows missing? Fill the gap, or shorten the file.",
         )
 
@@ -218,7 +218,7 @@ def check_times(path: Path, time: Array, place: Lines, counted: str) -> None:
 def check_time_unit(
     path: Path, remarks: str, time: Array, coarsest: float, sampled: int = _SAMPLED
 ) -> None:
-    """Refuse times (t,) that are named, or look, as if in another unit than s.
+    """Reject times (t,) in another unit than s, by name or by size.
 
     Parameters
     ----------
@@ -231,7 +231,7 @@ def check_time_unit(
     Raises
     ------
     InputError
-        With the unit, or with the step.
+        Naming the unit or the step.
     """
     named = _TIME_UNIT.search(remarks)
     if named is not None:
@@ -273,12 +273,12 @@ def to_numbers(path: Path, line: int, cells: list[str], count: int) -> tuple[flo
 
 
 def pieces(path: Path) -> Iterator[str]:
-    """Text of a file in pieces of whole lines, a character a byte; ends of lines are line feeds.
+    """Text of a file in pieces of whole lines, one character per byte, with line feeds.
 
     Raises
     ------
     InputError
-        A file that cannot be read, or is not text.
+        An unreadable file, or one that is not text.
     """
     check_file(path)
     rest = ""
@@ -291,18 +291,20 @@ def pieces(path: Path) -> Iterator[str]:
                 rest = piece[end:]
                 if "\0" in piece or len(rest) > _LONGEST_LINE:
                     allowed = f"text in lines of up to {_LONGEST_LINE} characters"
-                    raise InputError(str(path), "bytes that are no text", allowed, "Check it.")
+                    raise InputError(
+                        str(path), "bytes that are not text", allowed, "Check the file."
+                    )
                 if end:
                     yield piece[:end]
     except OSError as error:
         reason = error.strerror or str(error)
-        raise InputError(str(path), reason, "a readable file", "Check it.") from None
+        raise InputError(str(path), reason, "a readable file", "Check the file.") from None
     if rest:
         yield rest
 
 
 def without_remarks(text: str, remark: re.Pattern[str]) -> str:
-    """A piece of text without what a pattern finds; its lines stay where they are."""
+    """A piece of text with matches of a pattern removed; line numbers do not change."""
     marked = any(mark in text for mark in ("#", "!", "%", "This output file"))
     return remark.sub("", text) if marked else text
 
@@ -315,9 +317,9 @@ class RowReader:
     count : int
         Number of columns.
     separator : str or None
-        Comma or blank; None for what each line has: blanks, commas or semicolons.
+        Comma or blank; None for the separator of each line: blanks, commas or semicolons.
     spoilt : callable, optional
-        Number for a cell that is none; without it such a cell is refused.
+        Function from a cell that is not a number to a number; by default such a cell is an error.
     """
 
     def __init__(
@@ -340,7 +342,7 @@ class RowReader:
         Raises
         ------
         InputError
-            A line that cannot be read.
+            An invalid line.
         """
         rows = self._at_once(text)
         if rows is None:
@@ -357,7 +359,7 @@ class RowReader:
         self.lines.append(lines)
 
     def _at_once(self, text: str) -> Array | None:
-        """The rows (n, c) by NumPy's parser; None unless they are surely what the rules give."""
+        """Rows (n, c) by NumPy's parser; None unless they certainly follow the rules."""
         begin = text[: text.find("\n", len(text) - len(text.lstrip()))]
         delimiter = self.separator or next((mark for mark in ",;" if mark in begin), " ")
         try:
@@ -402,7 +404,7 @@ class RowReader:
             raise InputError(
                 where,
                 text.strip(),
-                "cells separated by blanks, by commas or by semicolons, and by one of them alone",
+                "cells separated by blanks, by commas or by semicolons, not by a mixture",
                 DECIMAL_COMMAS,
             )
         return cells
@@ -420,12 +422,12 @@ def _read(
     Parameters
     ----------
     remark : Pattern
-        What is no data.
+        Pattern of comments.
     first : callable
-        Names of the columns, from the first line that is no comment and its place; none where that
-        line is a row already.
+        Function from the first line without comments and its location to the names of the columns;
+        none if that line is a row.
     count : int or None
-        Number of columns; None for that of the names.
+        Number of columns; None for the number of names.
     """
     names: tuple[str, ...] = ()
     reader: RowReader | None = None

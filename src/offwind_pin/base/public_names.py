@@ -1,7 +1,7 @@
 """Public names of a module, imported when they are first used.
 
 The names are listed once, in the stub beside the module (``__init__.pyi``), which type checkers and
-editors read too. Importing the package therefore loads nothing that a script does not use.
+editors also read. Importing the package therefore loads only what a script uses.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 
 
 class PublicNames(NamedTuple):
-    """What a module takes as its ``__getattr__``, ``__dir__`` and ``__all__``."""
+    """``__getattr__``, ``__dir__`` and ``__all__`` of a module."""
 
     get: Callable[[str], Any]
     listing: Callable[[], list[str]]
@@ -33,7 +33,7 @@ def public_names(module: str, file: str) -> PublicNames:
     Returns
     -------
     PublicNames
-        Every import of the stub can be got; ``dir`` shows those of the stub's ``__all__``.
+        All imports of the stub are available; ``dir`` shows those of the stub's ``__all__``.
     """
     homes: dict[str, tuple[str, str]] = {}
     shown: list[str] = []

@@ -1,4 +1,4 @@
-"""Random number streams by name, so that what one seed draws never depends on other draws."""
+"""Random number streams by name, independent of each other for the same seed."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ _SEQUENCES: dict[Stream, Callable[[int], np.random.SeedSequence]] = {
     "synthetic_wind": lambda seed: np.random.SeedSequence((seed, 2)),
     "rotor_wind": lambda seed: np.random.SeedSequence((seed, 3)),
 }
-"""How each stream follows from a seed. These four are kept for the sake of published draws; a new
-stream is spawned, ``SeedSequence(seed, spawn_key=(n,))`` with an n of its own."""
+"""Seed sequence of each stream. These four keep their published draws; a new stream is spawned as
+``SeedSequence(seed, spawn_key=(n,))`` with its own n."""
 
 
 def random_stream(seed: int, stream: Stream) -> np.random.Generator:

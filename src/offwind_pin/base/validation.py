@@ -1,4 +1,4 @@
-"""From what pydantic found wrong to one message for a person."""
+"""Input errors from pydantic's validation errors."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ Place = tuple[int | str, ...]
 def input_error(
     where: str, data: object, error: ValidationError, model: type[BaseModel], *, by_alias: bool
 ) -> InputError:
-    """The first fault that pydantic found, with the places of the others.
+    """Input error for the first fault that pydantic found, with the fields of the others.
 
     Parameters
     ----------
     where : str
-        File, or class, that the fault is in.
+        File or class with the fault.
     data : object
-        What was given.
+        The given data.
     by_alias : bool
         Whether fields are named as in a file, or as in Python.
     """
@@ -94,9 +94,10 @@ def _enumerate(places: list[str], most: int = 5) -> str:
 
 
 def _place(error: ErrorDetails, data: object, names: dict[str, str]) -> Place:
-    """Place of an error without the tags pydantic puts in for the chosen member of a union.
+    """Location of an error without pydantic's tags for the chosen member of a union.
 
-    No user typed them. A missing key, the last part of its place, is not in the data either.
+    The tags are not in the user's data. A missing key, the last part of its location, is not
+    either.
     """
     location = error["loc"]
     end = len(location) - (error["type"] == "missing")
@@ -123,9 +124,10 @@ def _place(error: ErrorDetails, data: object, names: dict[str, str]) -> Place:
 def _known_keys(
     model: type[BaseModel], location: Place, data: object, *, by_alias: bool
 ) -> list[str]:
-    """Keys that are accepted at a place of a definition.
+    """Keys that are accepted at a location in a definition.
 
-    Of a union they are those of the member that the data choose by its kind, else of every member.
+    For a union they are those of the member chosen by the kind in the data, otherwise of all
+    members.
     """
     schema = model.model_json_schema(by_alias=by_alias)
     nodes = [schema]
@@ -146,7 +148,7 @@ def _known_keys(
 
 
 def _below(schema: Schema, node: Schema, part: int | str, data: object) -> list[Schema]:
-    """The schemas of an item or a key."""
+    """Schemas of an item or a key."""
     if isinstance(part, int):
         return [choice["items"] for choice in _choices(schema, node, data, "items")]
     named = _choices(schema, node, data, "additionalProperties")
@@ -160,7 +162,7 @@ def _below(schema: Schema, node: Schema, part: int | str, data: object) -> list[
 def _choices(
     schema: Schema, node: Schema, data: object, having: str = "properties"
 ) -> list[Schema]:
-    """A schema with its references and unions resolved, those alternatives that have a key."""
+    """Alternatives of a schema that have a key, with references and unions resolved."""
     if "$ref" in node:
         whole = schema["$defs"][node["$ref"].rsplit("/", 1)[-1]]
         return _choices(schema, whole, data, having)

@@ -1,4 +1,4 @@
-"""Files written whole or not at all."""
+"""Files written atomically."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import errno
 import json
 import shutil
 import uuid
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -16,18 +16,18 @@ if TYPE_CHECKING:
 
 
 _CHUNK = 256
-"""Instants that a file holds, and a reader reads, at once."""
+"""Instants per chunk of a file."""
 _SMALL = 500
-"""Numbers; a compressed variable of fewer takes more room than an uncompressed one."""
+"""Number of values below which compression would enlarge a variable."""
 _CACHE_BYTES = 2**20
-"""Memory for the chunks of each variable while a file is written; the default is 16 times that."""
+"""Chunk cache of each variable while a file is written; the default is 16 times this."""
 
 
 @contextmanager
 def whole_file(path: Path) -> Iterator[Path]:
-    """A temporary path beside ``path`` that takes its place once the block ends well.
+    """A temporary path beside ``path`` that replaces it when the block succeeds.
 
-    If the block fails, ``path`` is what it was before.
+    If the block fails, ``path`` is not changed.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
     temporary = path.with_name(f".{path.stem}.{uuid.uuid4().hex}{path.suffix}")
@@ -82,14 +82,24 @@ def append_netcdf(
                         file[str(name)][begin : begin + part.sizes["time"]] = variable.values
 
 
-def add_groups(path: Path, groups: Mapping[str, xr.Dataset]) -> None:
-    """Add datasets as groups to an existing NetCDF file, which is replaced as a whole."""
+def add_groups(
+    path: Path,
+    groups: Mapping[str, xr.Dataset],
+    complete: Callable[[Path], None] = lambda _: None,
+) -> None:
+    """Add datasets as groups to an existing NetCDF file, which is replaced as a whole.
+
+    Parameters
+    ----------
+    complete : what is done last to the new file
+    """
     with whole_file(path) as temporary, _netcdf_errors():
         shutil.copyfile(path, temporary)
         for name, data in groups.items():
             data.to_netcdf(
                 temporary, mode="a", group=name, engine="netcdf4", encoding=_encoding(data, {})
             )
+        complete(temporary)
 
 
 @contextmanager
@@ -111,7 +121,7 @@ def _encoding(data: xr.Dataset, dtypes: Mapping[str, str]) -> dict[Any, dict[str
             # Strings of variable length crash HDF5 2.0 when it opens one such file after another.
             how["dtype"] = "S1"
         if "time" in variable.dims:
-            # Left to itself the file has one chunk for each instant.
+            # By default the file has one chunk per instant.
             how["chunksizes"] = [_CHUNK if d == "time" else data.sizes[d] for d in variable.dims]
         if name in data.data_vars:
             if variable.size > _SMALL or "time" in variable.dims:

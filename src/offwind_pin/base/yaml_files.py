@@ -1,7 +1,7 @@
 """YAML files, by the core schema of YAML 1.2.
 
-``045`` is 45, ``1e5`` a number, and ``yes``, ``on``, ``1:30`` and ``2020-01-01`` are text. Refused
-are a key given twice, other tags, deep nesting, and aliases that expand to many values.
+``045`` is 45, ``1e5`` a number, and ``yes``, ``on``, ``1:30`` and ``2020-01-01`` are text.
+Duplicate keys, other tags, deep nesting, and aliases that expand to many values are rejected.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ def _mapping(loader: _Loader, node: yaml.MappingNode) -> dict[Any, Any]:
     found: dict[Any, Any] = {}
     for key_node, value_node in node.value:
         if not isinstance(key_node, yaml.ScalarNode):
-            raise _refused("a key must be a name", key_node)
+            raise _refused("a key that is not a string", key_node)
         key = loader.construct_object(key_node, deep=True)
         if key in found:
             raise _refused(f"key {brief(key)} is given twice", key_node)
@@ -70,7 +70,7 @@ def _text(_: _Loader, node: yaml.ScalarNode) -> str:
 def _scalar(_: _Loader, node: yaml.ScalarNode) -> bool | int | float | None:
     kind, text = node.tag.removeprefix(_TAG), node.value
     if re.fullmatch(_SCALARS[kind], text) is None:  # a tag on something else
-        raise _refused(f"{brief(text)} is no {kind}", node)
+        raise _refused(f"{brief(text)} is not a valid {kind}", node)
     if kind == "null":
         return None
     if kind == "bool":
@@ -91,12 +91,12 @@ _Loader.add_constructor(f"{_TAG}map", _mapping)
 
 
 def parse_yaml(text: str, path: Path) -> object:
-    """The data of a text, which is in a file.
+    """Parse the text of a YAML file.
 
     Raises
     ------
     InputError
-        It is not YAML, or beyond the limits on nesting and size.
+        The text is not YAML, or exceeds the limits on nesting and size.
     """
     try:
         _check_nesting(text)
@@ -119,12 +119,12 @@ def parse_yaml(text: str, path: Path) -> object:
 
 
 def read_yaml(path: Path) -> dict[str, Any]:
-    """A file that contains a mapping.
+    """Read a YAML file that contains a mapping.
 
     Raises
     ------
     InputError
-        It cannot be read, is not YAML, or is no mapping of names to values.
+        The file cannot be read, is not YAML, or is not a mapping.
     """
     data = parse_yaml(read_text(path, _LARGEST), path)
     if data is None:
@@ -137,7 +137,7 @@ def read_yaml(path: Path) -> dict[str, Any]:
 
 
 def _check_nesting(text: str) -> None:
-    """Refuse deep nesting event by event, before anything follows it by recursion."""
+    """Reject deep nesting event by event, before any recursion."""
     depth = 0
     for event in yaml.parse(text, Loader=_Loader):
         if isinstance(event, yaml.CollectionStartEvent):
@@ -154,7 +154,7 @@ def _check_size(node: yaml.Node, known: dict[int, tuple[int, int] | None]) -> tu
     Parameters
     ----------
     known : dict
-        The same of nodes met before, by their identity; None while they are being counted.
+        Result for the nodes before, by their identity; None while they are being counted.
     """
     if id(node) in known:
         counted = known[id(node)]

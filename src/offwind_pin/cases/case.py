@@ -1,4 +1,4 @@
-"""A load case as data: turbine, foundation, sea, load, analysis, and what others published."""
+"""A load case as data: turbine, foundation, sea, loads, analysis, and published values."""
 
 from __future__ import annotations
 
@@ -37,12 +37,12 @@ from offwind_pin.structure.chain import MOST_ELEMENTS
 
 def _known_foundation(name: str) -> str:
     if name not in FOUNDATIONS:
-        raise ValueError(f"{name!r} is no foundation; choose one of {', '.join(FOUNDATIONS)}")
+        raise ValueError(f"{name!r} is not a foundation; choose one of {', '.join(FOUNDATIONS)}")
     return name
 
 
 def _load_turbine(value: Any, info: ValidationInfo) -> Any:
-    """A turbine by shipped name or file; a relative path starts at the folder of the case file."""
+    """A turbine by shipped name or file; paths are relative to the folder of the case file."""
     if not isinstance(value, str | Path):
         return value
     local = Path((info.context or {}).get("folder", "")) / value
@@ -60,7 +60,7 @@ _COARSEST_OUTPUT = 0.3
 
 
 class StaticAnalysis(Definition):
-    """Equilibrium under gravity, if asked for beside that on another foundation.
+    """Equilibrium under gravity, optionally compared with that on another foundation.
 
     settle : for how long the undeformed structure is followed in time as it comes to rest under
         gravity, beside the direct solution; or None
@@ -74,7 +74,7 @@ class StaticAnalysis(Definition):
 
 
 class OperationalModesSettings(Definition):
-    """A record of accelerations under white noise, and how modes are taken out of it.
+    """A record of accelerations under white noise, and the settings that identify modes in it.
 
     duration : of the record; the damping ratio of a mode scatters by 1 / sqrt(2 pi zeta f T) of
         itself at least
@@ -127,7 +127,7 @@ class TransientAnalysis(Definition):
     def _window_holds_a_segment(self) -> TransientAnalysis:
         if self.ramp >= self.duration:
             raise ValueError(
-                f"ramp_s = {self.ramp} leaves nothing of duration_s = {self.duration}; shorten it"
+                f"ramp_s = {self.ramp} is not shorter than duration_s = {self.duration}; shorten it"
             )
         if self.duration / self.output_dt > MOST_OUTPUTS:
             raise ValueError(
@@ -141,7 +141,7 @@ class TransientAnalysis(Definition):
             )
         if self.psd_segment < 10 * self.output_dt:
             raise ValueError(
-                f"psd_segment_s = {self.psd_segment} holds fewer than ten samples; lengthen it"
+                f"psd_segment_s = {self.psd_segment} contains fewer than ten samples; lengthen it"
             )
         if self.psd_segment > self.duration - self.ramp - self.output_dt:
             raise ValueError(
@@ -152,7 +152,7 @@ class TransientAnalysis(Definition):
 
 
 class PublishedValue(Definition):
-    """A number that others published, and the key of ours in the summary."""
+    """A published value, and the key of the computed one in the summary."""
 
     quantity: str
     key: str
@@ -161,7 +161,37 @@ class PublishedValue(Definition):
 
 
 class Case(Definition):
-    """One load case."""
+    """One load case: what a case file contains.
+
+    Attributes
+    ----------
+    name : str
+        Short name, used in file names.
+    title, description : str
+        For the report.
+    turbine : Turbine
+        In a file also a shipped name or a path.
+    foundation : str
+        Name of a kind of foundation.
+    sea : Sea or DrySea
+        Sea state, or ``DrySea()`` for none.
+    tower_top_load : TowerTopLoadFile, OpenFastLoad, SyntheticWind, RotorLoad or None
+        Load at the tower top.
+    tower_wind : TowerWind or None
+        Wind on the tower.
+    earthquake : Earthquake or None
+        Motion of the ground.
+    analysis : StaticAnalysis, ModalAnalysis or TransientAnalysis
+        What is solved.
+    seed : int
+        Seed of everything random that has no seed of its own.
+    elements : int, dict of str to int, or None
+        As for :func:`offwind_pin.build`.
+    element : {"euler_bernoulli", "timoshenko"}
+        As for :func:`offwind_pin.build`.
+    published : tuple of PublishedValue
+        Values to compare results with.
+    """
 
     name: Annotated[str, Field(pattern=r"^[A-Za-z0-9._-]+$")]
     title: str = ""
@@ -193,8 +223,8 @@ class Case(Definition):
         given = [name for name, is_there in loads.items() if is_there]
         if given:
             raise ValueError(
-                f"a {self.analysis.kind} analysis does not take {', '.join(given)}; leave them "
-                "out, or use analysis kind transient"
+                f"analysis kind {self.analysis.kind} does not use {', '.join(given)}; leave them "
+                "out, or use kind transient"
             )
         return self
 
@@ -214,14 +244,23 @@ class Case(Definition):
         return self.sea.completed(self.seed, duration)
 
     def with_seed(self, seed: int) -> Case:
-        """The same case, in which everything random is drawn by one seed.
+        """The same case with one seed for everything random.
 
-        Seeds that waves or wind have of their own are dropped.
+        Separate seeds of waves and wind are dropped.
+
+        Parameters
+        ----------
+        seed : int
+            Seed of all random numbers.
+
+        Returns
+        -------
+        Case
 
         Raises
         ------
         InputError
-            A seed that cannot be used.
+            An invalid seed.
         """
         parts = {name: getattr(self, name) for name in type(self).model_fields}
         reseeded = {
@@ -233,6 +272,15 @@ class Case(Definition):
 
     def build(self, foundation: str | None = None) -> System:
         """The case's system, on its own foundation or on another.
+
+        Parameters
+        ----------
+        foundation : str, optional
+            Another kind of foundation than the case's own.
+
+        Returns
+        -------
+        System
 
         Raises
         ------
@@ -250,10 +298,19 @@ class Case(Definition):
 def load_case(name_or_path: str | Path) -> Case:
     """A case by shipped name or from a YAML file; relative paths in it start at its folder.
 
+    Parameters
+    ----------
+    name_or_path : str or Path
+        Name of a shipped case, or path of a YAML file.
+
+    Returns
+    -------
+    Case
+
     Raises
     ------
     InputError
-        The name is unknown, or the file cannot be read or understood.
+        An unknown name, or a file that cannot be read or is not a valid case.
     """
     path = find_definition(name_or_path, shipped_cases(), "case")
     return read_definition(path, Case)

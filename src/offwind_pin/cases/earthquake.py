@@ -26,7 +26,7 @@ _log = logging.getLogger(__name__)
 PERIODS = np.geomspace(0.05, 10.0, 200)
 """s, of the response spectrum that is drawn."""
 DAMPING_RATIO = 0.05
-"""Of the response spectrum; codes give theirs for this ratio."""
+"""Of the response spectrum; design codes use this ratio."""
 MODES = 6
 """Modes whose spectral ordinates are listed."""
 
@@ -47,10 +47,11 @@ class CaseEarthquake:
     motion : GroundMotion
         Of the ground.
     cautions : list of str
-        What looks wrong with it.
+        Possible faults of the record.
     gravity : float, m/s2
         For the Arias intensity.
-    level : that is reported, the highest
+    level : int
+        Index of the reported level, the highest.
     """
 
     motion: GroundMotion
@@ -59,7 +60,7 @@ class CaseEarthquake:
 
     @staticmethod
     def of(earthquake: Earthquake, gravity: float, dt: float, duration: float) -> CaseEarthquake:
-        """Read what a case asks for; cautions go to the log as well, by here and by the simulation.
+        """Read the earthquake of a case; cautions also go to the log.
 
         Raises
         ------
@@ -74,7 +75,7 @@ class CaseEarthquake:
 
     @property
     def step(self) -> float:
-        """Interval in s at which the record is looked at: its own, or its smallest."""
+        """Sampling interval in s: the record's own, or its smallest."""
         return float(np.min(np.diff(self.motion.time)))
 
     @property

@@ -34,8 +34,8 @@ STEP = 0.02
 SETTLING = 200.0
 """s from the start on that are left out."""
 FORCE, MOMENT = 20e3, 1e6
-"""Standard deviations of Fx in N and My in N m at the yaw bearing. So small that the soil stays
-linear; the moment reaches the second mode, which hardly moves there but turns."""
+"""Standard deviations of Fx in N and My in N m at the yaw bearing. They are small enough for the
+soil to stay linear; the moment excites the second mode, which rotates there but hardly moves."""
 LABELS = ("FA1", "FA2")
 
 
@@ -57,7 +57,7 @@ def identify(
     Raises
     ------
     InputError
-        Modes that were not computed, or a record too short for the settings.
+        Modes that were not computed, or a record that is too short for the settings.
     """
     height = np.linspace(system.turbine.site.mudline, system.chain.top, asked.nodes)
     rows = [modes.index(label) for label in LABELS]
@@ -129,7 +129,8 @@ def identify(
 
 
 def summarise_identified(data: xr.Dataset) -> dict[str, Any]:
-    """Keys of the summary: a row for each mode, and single numbers for published ones to name."""
+    """Keys of the summary: one row per mode, and single values for comparison with published
+    ones."""
     rows = [
         {
             "label": str(label),
@@ -184,7 +185,8 @@ def _shaken(
 
 
 def _peak(shape: Array) -> float:
-    """Number of the node at the peak, and the part of a step to the vertex of a parabola there."""
+    """Index of the node at the peak plus the offset of the vertex of a parabola, in node
+    spacings."""
     at = int(np.argmax(shape))
     if at in (0, len(shape) - 1):
         return float(at)

@@ -1,4 +1,4 @@
-"""Places for results, checked before a long solve and not after it."""
+"""Output directories, checked before a long solve."""
 
 from __future__ import annotations
 
@@ -9,21 +9,19 @@ from offwind_pin.base.errors import InputError
 
 
 def check_writable(directory: Path) -> None:
-    """Make sure that files can be written into a directory, there already or to be made.
+    """Check that files can be written to a directory, existing or not.
 
     Raises
     ------
     InputError
-        Something on the way is a file, or must not be written to.
+        Part of the path is a file, or is not writable.
     """
     nearest = directory.absolute()
     while not os.path.lexists(nearest):
         nearest = nearest.parent
     if not nearest.is_dir():
         raise InputError(
-            "--out", str(directory), f"a directory, but {nearest} is none", "Name another."
+            "--out", str(directory), f"a directory; {nearest} is not one", "Choose another."
         )
     if not os.access(nearest, os.W_OK | os.X_OK):
-        raise InputError(
-            "--out", str(directory), "a directory that you may write to", "Name another."
-        )
+        raise InputError("--out", str(directory), "a writable directory", "Choose another.")

@@ -44,6 +44,7 @@ from offwind_pin.cases.tree_summary import summary, summary_head
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.sea.sea import Sea
 from offwind_pin.results.dataset import versions
+from offwind_pin.results.inventory import add_inventory
 from offwind_pin.results.manifest import REPORT, RESULTS, SUMMARY, State
 from offwind_pin.results.reading import analysed, open_case
 from offwind_pin.results.run_folder import RunFolder
@@ -59,14 +60,14 @@ Groups = dict[str, xr.Dataset | None]
 
 @dataclass(frozen=True)
 class _Solved:
-    """What a solve gave.
+    """Results of a solve.
 
     Attributes
     ----------
     root : Dataset or None
-        Main dataset; None for time histories, which are in their file already.
+        Main dataset; None for time histories, which are already in their file.
     groups : Groups
-        Datasets by path in the tree; None for those that the case does not have.
+        Datasets by path in the tree; None where the case has none.
     simulated : float, s
     """
 
@@ -286,7 +287,7 @@ def _soil(
 
 
 def _marked(sea: Sea | None, result: ModalResult, passing: float | None) -> dict[str, float]:
-    """Frequencies in Hz that a reader looks for in the spectrum, by name."""
+    """Frequencies in Hz to mark in the spectrum, by name."""
     marked = {}
     if sea is not None and sea.marked_frequency is not None:
         marked["wave"] = sea.marked_frequency
@@ -300,7 +301,7 @@ def _marked(sea: Sea | None, result: ModalResult, passing: float | None) -> dict
 
 
 def _description(case: Case, system: System) -> Groups:
-    """What describes a case without any solve."""
+    """Description of a case, without a solve."""
     return {
         "structure": structure_dataset(system),
         "structural_damping": damping_dataset(system),
@@ -311,7 +312,7 @@ def _description(case: Case, system: System) -> Groups:
 def _case_dataset(
     case: Case, status: str, wall: float, simulated: float, begun: float
 ) -> xr.Dataset:
-    """The definition, and the account of the run, which continued from ``begun`` seconds."""
+    """The definition and a record of the run, which continued from ``begun`` seconds."""
     definition = {
         "definition": json.dumps(case.model_dump(mode="json", by_alias=True)),
         "content_hash": case.content_hash,
@@ -358,9 +359,9 @@ def _published_dataset(case: Case) -> xr.Dataset | None:
 
 
 def _add_groups(path: Path, groups: Groups) -> None:
-    """Add all groups that the case has; their dimensions get the name of the group."""
+    """Add all groups of the case; their dimensions are prefixed with the group's name."""
     there = {name: prefixed(data, name) for name, data in groups.items() if data is not None}
-    add_groups(path, there)
+    add_groups(path, there, add_inventory)
 
 
 def _write_stopped(

@@ -29,7 +29,7 @@ _log = logging.getLogger(__name__)
 def settle(
     system: System, state: StaticResult, duration: float, progress: Progress | None = None
 ) -> xr.Dataset:
-    """Apply gravity to the undeformed structure at once, and follow it for a duration in s.
+    """Apply gravity suddenly to the undeformed structure, and simulate it for a duration in s.
 
     Returns
     -------
@@ -49,8 +49,8 @@ def settle(
     off = np.linalg.norm(moved - state.displacement, axis=2).max(axis=1)
     if off[-1] > _AT_REST:
         _log.warning(
-            "after %g s the structure is still %.2g m away from its static state; give it damping, "
-            "or a longer settle_s",
+            "after %g s the structure is still %.2g m from its static state; add damping, or "
+            "increase settle_s",
             duration,
             off[-1],
         )

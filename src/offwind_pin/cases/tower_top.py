@@ -1,4 +1,4 @@
-"""The tower-top load of a case: what acts in the simulation, and its description as data."""
+"""The tower-top load of a case: the load that is applied, and its description as data."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ _log = logging.getLogger(__name__)
 
 @dataclass(frozen=True, eq=False)
 class TowerTop:
-    """What acts at the tower top.
+    """The load at the tower top.
 
     Attributes
     ----------
@@ -54,9 +54,9 @@ class TowerTop:
     mean : (6,) array or None, N and N m
         Load at the yaw bearing that acts from the start, or None.
     blade_passing_frequency : float or None, Hz
-        Or None.
+        None where no blades pass.
     notes, cautions : list of str
-        What was done to the user's numbers, and what looks wrong with them.
+        Changes made to the user's numbers, and their possible faults.
     """
 
     acting: LoadHistory | RotorThrust | None = None
@@ -82,14 +82,14 @@ class TowerTop:
                 f"coefficient: {source or 'the user'}"
             )
             attributes["tower_top_load_holds"] = (
-                "prescribed loads; a rotor's thrust is not among them"
+                "prescribed loads, which exclude the thrust of the rotor"
             )
         if self.notes or self.cautions:
             attributes["tower_top_load_notes"] = " | ".join([*self.notes, *self.cautions])
         return attributes
 
     def dataset(self) -> xr.Dataset | None:
-        """Mean load, and what was done to the user's numbers; None for no load."""
+        """Mean load, and the changes made to the user's numbers; None without a load."""
         if self.mean is None:
             return None
         component = ["Fx", "Fy", "Fz", "Mx", "My", "Mz"]
@@ -119,8 +119,8 @@ class TowerTop:
         for label, aerodynamic, own in zip(found.label, ratio, found.damping_ratio, strict=True):
             if aerodynamic + own < 0:
                 _log.warning(
-                    "mode %s is fed by the thrust: its damping ratio is %.4f, of which %.4f is "
-                    "aerodynamic; it will grow",
+                    "mode %s is unstable: its damping ratio is %.4f, of which %.4f is "
+                    "aerodynamic, so its amplitude will grow",
                     label,
                     aerodynamic + own,
                     aerodynamic,
@@ -187,7 +187,7 @@ def summarise_tower_top(load: xr.Dataset | None, rotor: xr.Dataset | None) -> di
 
 
 def wind_dataset(case: Case, turbine: Turbine) -> xr.Dataset | None:
-    """As :func:`synthetic_dataset`, of a case; None for another load."""
+    """As :func:`synthetic_dataset`, for a case; None for another load."""
     load = case.tower_top_load
     if not isinstance(load, SyntheticWind):
         return None
@@ -228,7 +228,7 @@ def synthetic_dataset(made: SyntheticWind, rna: RotorNacelleRNA) -> xr.Dataset:
 
 
 def tower_top(case: Case, turbine: Turbine, analysis: TransientAnalysis) -> TowerTop:
-    """What acts at the tower top in a case.
+    """The tower-top load of a case.
 
     Raises
     ------
@@ -307,6 +307,6 @@ def rotor_of(turbine: Turbine) -> RotorNacelleRNA:
             f"turbine {turbine.name}, field rna.kind",
             turbine.rna.kind,
             "rotor_nacelle, whose rotor this load needs",
-            "Give rotor and nacelle inputs, or a load at the yaw bearing (frame: yaw_bearing).",
+            "Define rotor and nacelle, or use a load at the yaw bearing (frame: yaw_bearing).",
         )
     return turbine.rna

@@ -159,7 +159,7 @@ def _frequencies(modes: ModalResult) -> dict[str, float]:
 
 
 def _damping(data: xr.Dataset | None) -> dict[str, Any]:
-    """As :func:`summarise_damping`, of results."""
+    """As :func:`summarise_damping`, from results."""
     if data is None:
         return {"kind": None, "asked": {}, "achieved": {}, "cautions": []}
     ratios = {

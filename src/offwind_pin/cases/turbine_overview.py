@@ -1,4 +1,4 @@
-"""What was understood of a turbine, at a glance."""
+"""Summary of a turbine as read."""
 
 from __future__ import annotations
 
@@ -120,7 +120,7 @@ class Overview:
 
 
 def overview(turbine: Turbine) -> Overview:
-    """Collect what a person wants to check first; solves the modes on each foundation."""
+    """Collect the main figures of a turbine; solves the modes on each foundation."""
     rna = lump_rna(turbine.rna)
     mudline = turbine.site.mudline
     springs = turbine.soil.distributed_springs

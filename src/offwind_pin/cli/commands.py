@@ -1,4 +1,4 @@
-"""The command line: thin, with messages a person can act on and exit codes a script can read.
+"""The command line: arguments, output, and exit codes for scripts.
 
 Each command imports what it needs when it runs, so that help and completion are quick.
 """
@@ -78,12 +78,14 @@ FoundationOption = Annotated[
     str,
     typer.Option(help=f"One of {', '.join(FOUNDATIONS)}.", autocompletion=_complete_foundation),
 ]
-ElementsOption = Annotated[int | None, typer.Option(help="Multibody beam elements in all.")]
+ElementsOption = Annotated[
+    int | None, typer.Option(help="Total number of multibody beam elements.")
+]
 ElementOption = Annotated[
-    Element, typer.Option(help="euler_bernoulli, or timoshenko for elements that shear as well.")
+    Element, typer.Option(help="euler_bernoulli, or timoshenko to include shear.")
 ]
 EngineOption = Annotated[
-    Engine, typer.Option(help="What evaluates the equations: compiled, or pinocchio.")
+    Engine, typer.Option(help="Implementation of the equations: compiled or pinocchio.")
 ]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON instead of a table.")]
 
@@ -177,7 +179,7 @@ def soil_command(
         Path | None, typer.Option(help="Directory for soil.html, soil.json, curves and 6x6 files.")
     ] = None,
     result: Annotated[
-        Path | None, typer.Option(help="Directory of a run, for the state that it reached.")
+        Path | None, typer.Option(help="Directory of a run whose largest displacements to use.")
     ] = None,
     load: Annotated[
         str | None,
@@ -185,12 +187,12 @@ def soil_command(
     ] = None,
     arm: Annotated[
         float | None,
-        typer.Option(help="Height in m of the pushover's load, by default the yaw bearing's."),
+        typer.Option(help="Height of the pushover load above the mudline in m [yaw bearing]."),
     ] = None,
     elements: ElementsOption = None,
     as_json: JsonOption = False,  # noqa: FBT002
 ) -> None:
-    """Curves of the soil, their state, pushover, 6x6, apparent fixity and damping."""
+    """Soil reaction curves and their state, pushover, 6x6, apparent fixity and damping."""
     from offwind_pin.analysis.foundation.study.study import soil_overview
     from offwind_pin.cases.output_directory import check_writable
     from offwind_pin.cli.tables import print_soil
@@ -236,7 +238,7 @@ def run(
         bool, typer.Option("--overwrite", help="Replace earlier results of offwind run.")
     ] = False,
     report: Annotated[  # noqa: FBT002
-        bool, typer.Option(help="Write report.html; offwind report makes it later.")
+        bool, typer.Option(help="Write report.html; offwind report can do so later.")
     ] = True,
     as_json: JsonOption = False,  # noqa: FBT002
 ) -> None:
@@ -296,7 +298,10 @@ def report_command(
 
     if not directory.is_dir():
         raise InputError(
-            "DIR", str(directory), "an existing directory", "Name the --out of offwind run."
+            "DIR",
+            str(directory),
+            "an existing directory",
+            "Give the --out directory of offwind run.",
         )
     check_writable(directory)
     typer.echo(f"Wrote {report_again(directory)}")
@@ -327,25 +332,27 @@ def view_command(
         str,
         typer.Argument(help="Directory of a run or its results.nc; or a turbine, for its modes."),
     ],
-    html: Annotated[Path | None, typer.Option(help="Write the page into a file.")] = None,
+    html: Annotated[Path | None, typer.Option(help="Write the page to a file.")] = None,
     still: Annotated[Path | None, typer.Option(help="Write a picture: .png or .svg.")] = None,
     frames: Annotated[
         Path | None, typer.Option(help="New directory for numbered frames of a film.")
     ] = None,
     fps: Annotated[float | None, typer.Option(help="Frames per second, by default 25.")] = None,
-    start: Annotated[float | None, typer.Option(help="Start of the part shown in s.")] = None,
-    duration: Annotated[float | None, typer.Option(help="Its duration in s.")] = None,
+    start: Annotated[float | None, typer.Option(help="Start of the part shown, in s.")] = None,
+    duration: Annotated[
+        float | None, typer.Option(help="Duration of the part shown, in s.")
+    ] = None,
     mode_list: Annotated[
-        str | None, typer.Option("--modes", help="Side by side, up to four: FA1,SS1,FA2,SS2.")
+        str | None, typer.Option("--modes", help="Modes side by side, up to four: FA1,SS1,FA2,SS2.")
     ] = None,
     foundation: Annotated[
-        str, typer.Option(help="Of a turbine; results have their own.")
+        str, typer.Option(help="Foundation of a turbine; ignored for results.")
     ] = "distributed_springs",
-    dry: Annotated[bool, typer.Option("--dry", help="A turbine without water.")] = False,  # noqa: FBT002
-    port: Annotated[int, typer.Option(help="By default any that is free.")] = 0,
+    dry: Annotated[bool, typer.Option("--dry", help="Without water, for a turbine.")] = False,  # noqa: FBT002
+    port: Annotated[int, typer.Option(help="Port of the page; 0 for any free one.")] = 0,
     browser: Annotated[bool, typer.Option(help="Open the page in a browser.")] = True,  # noqa: FBT002
 ) -> None:
-    """Show results in motion: a page on this computer until Ctrl-C, or files."""
+    """Animate results: on a local page until Ctrl-C, or in files."""
     import shlex
 
     from offwind_pin.base.whole_files import write_text
@@ -376,7 +383,7 @@ def view_command(
         rate = FPS if fps is None else fps
         with frames_progress() as progress:
             view.film(frames, rate, progress)
-        typer.echo(f"Wrote {frames}; a film of it:")
+        typer.echo(f"Wrote {frames}; to make a film:")
         pattern, name = (
             shlex.quote(str(path)) for path in (frames / "frame_%05d.png", frames.name)
         )
@@ -387,17 +394,17 @@ def view_command(
 
 
 def _results_of(source: str, foundation: str, *, dry: bool, modal: bool) -> xr.Dataset:
-    """Results read from a file; of a turbine its modes, the only thing that is solved here.
+    """Results read from a file; for a turbine its modes, which are solved here.
 
     modal : whether modes are asked for, which a time history may have in a group
     """
     from offwind_pin.base.errors import InputError
-    from offwind_pin.results.reading import open_results
+    from offwind_pin.results.reading import open_checked
     from offwind_pin.results.tree import part
 
     path = Path(source)
     if path.is_dir() or path.suffix == ".nc":
-        tree = open_results(path)
+        tree = open_checked(path)
         found = part(tree, "modes") if modal else None
         return tree.to_dataset() if found is None else found
     if not path.exists() and source not in shipped_turbines():
@@ -406,7 +413,7 @@ def _results_of(source: str, foundation: str, *, dry: bool, modal: bool) -> xr.D
             source,
             "the directory of a run, its results.nc, a shipped turbine "
             f"({', '.join(shipped_turbines())}), or a turbine's YAML file",
-            "Check the path; offwind run makes results.",
+            "Check the path; offwind run writes results.",
         )
     return _modes_of(source, foundation, dry=dry)
 
@@ -434,7 +441,7 @@ def urdf(
     elements: ElementsOption = None,
     element: ElementOption = "euler_bernoulli",
 ) -> None:
-    """Write the URDF that Pinocchio runs, its meshes, and the sidecar with springs and dampers."""
+    """Write the URDF that Pinocchio uses, its meshes, and a sidecar with springs and dampers."""
     from offwind_pin.analysis.build import build
     from offwind_pin.cases.output_directory import check_writable
     from offwind_pin.definitions.reader import load_turbine
@@ -448,10 +455,10 @@ def urdf(
 
 @app.command("verify")
 def verify_command(
-    only: Annotated[
-        str | None, typer.Option(help="Rows by id, or several: oc6-*, morison-*.")
+    only: Annotated[str | None, typer.Option(help="Row id, or a pattern such as oc6-*.")] = None,
+    page: Annotated[
+        Path | None, typer.Option(help="File for the results as a Markdown page.")
     ] = None,
-    page: Annotated[Path | None, typer.Option(help="File for the rows as a Markdown page.")] = None,
     as_json: JsonOption = False,  # noqa: FBT002
 ) -> None:
     """Re-run the checks of the verification ledger; exit status 1 if a row fails."""
@@ -478,7 +485,7 @@ def verify_command(
 
 @contextmanager
 def _without_cautions() -> Iterator[None]:
-    """Plain structures of the ledger are no turbines: cautions about them would drown its table."""
+    """The ledger's plain structures are not turbines: cautions about them would bury its table."""
     import logging
 
     logger = logging.getLogger("offwind_pin")
@@ -491,7 +498,7 @@ def _without_cautions() -> Iterator[None]:
 
 
 def _numbers(text: str, option: str) -> Array:
-    """Numbers separated by commas; how many there must be is the load's own business."""
+    """Numbers separated by commas; the load checks how many there are."""
     import numpy as np
 
     from offwind_pin.base.errors import InputError
@@ -512,7 +519,7 @@ def _check_target(option: str, path: Path, example: str) -> None:
     from offwind_pin.cases.output_directory import check_writable
 
     if path.is_dir():
-        raise InputError(option, str(path), "a file name", f"Name a file, such as {example}.")
+        raise InputError(option, str(path), "a file name", f"Give a file name, such as {example}.")
     check_writable(path.parent)
 
 

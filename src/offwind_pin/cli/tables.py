@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def print_modes(title: str, rows: Sequence[Mapping[str, Any]]) -> None:
-    """A line for each mode, as :func:`summarise_modes` gives them."""
+    """One line per mode, as returned by :func:`summarise_modes`."""
     table = Table("mode", "", "frequency", "damping", "peak at", title=title)
     for row in rows:
         table.add_row(
@@ -69,12 +69,12 @@ def print_notes(system: System) -> None:
 
 
 def print_outcomes(outcomes: Sequence[Outcome]) -> None:
-    """A table for each group, and what failed once more at the end."""
+    """One table per group, and the failures repeated at the end."""
     from offwind_pin.verification.page import outcome_cells
 
     console = Console()
     for group in dict.fromkeys(outcome.row.group for outcome in outcomes):
-        table = Table("row", "found", "off by", "allowed", "", title=f"\n{group}", box=None)
+        table = Table("row", "value", "difference", "tolerance", "", title=f"\n{group}", box=None)
         table.title_justify = "left"
         for outcome in outcomes:
             if outcome.row.group == group:

@@ -1,4 +1,4 @@
-"""What water does to the members: coefficients, marine growth, water inside, buoyancy."""
+"""Hydrodynamic properties of members: coefficients, marine growth, water inside, buoyancy."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Values = Annotated[tuple[CoefficientValue, ...], Field(min_length=2)]
 
 
 class CoefficientOverHeight(Definition):
-    """Coefficient at heights, linear in between, constant beyond both ends."""
+    """Coefficient over height, linear in between, constant beyond both ends."""
 
     z: Annotated[tuple[Height, ...], Field(min_length=2)] = Field(alias="z_m")
     value: Values
@@ -27,7 +27,7 @@ class CoefficientOverHeight(Definition):
         return self
 
     def at(self, height: Array, keulegan_carpenter: Array) -> Array:
-        """(n,) at heights in m."""
+        """(n,) coefficient at heights in m."""
         return np.interp(height, self.z, self.value)
 
 
@@ -43,24 +43,24 @@ class CoefficientOverKeuleganCarpenter(Definition):
         return self
 
     def at(self, height: Array, keulegan_carpenter: Array) -> Array:
-        """(n,) at Keulegan-Carpenter numbers."""
+        """(n,) coefficient at Keulegan-Carpenter numbers."""
         return np.interp(keulegan_carpenter, self.keulegan_carpenter, self.value)
 
 
 def _check_table(name: str, place: tuple[float, ...], value: tuple[float, ...]) -> None:
-    """Two columns that belong together.
+    """Check the columns of a table.
 
     Raises
     ------
     ValueError
-        They are of different lengths, or the places do not rise.
+        Columns of different lengths, or positions that do not rise.
     """
     if len(place) != len(value):
         raise ValueError(
-            f"{name} has {len(place)} entries and value {len(value)}; give one value for each"
+            f"{name} has {len(place)} entries and value {len(value)}; give one value per entry"
         )
     if np.any(np.diff(place) <= 0):
-        raise ValueError(f"{name} must rise strictly; sort the table")
+        raise ValueError(f"{name} must increase strictly; sort the table")
 
 
 def _kind_of_coefficient(value: Any) -> str:
@@ -83,7 +83,7 @@ Coefficient = Annotated[
 
 
 def coefficient_at(coefficient: Coefficient, height: Array, keulegan_carpenter: Array) -> Array:
-    """(n,) a coefficient at heights in m and Keulegan-Carpenter numbers."""
+    """(n,) coefficient at heights in m and Keulegan-Carpenter numbers."""
     if isinstance(coefficient, CoefficientOverHeight | CoefficientOverKeuleganCarpenter):
         return coefficient.at(height, keulegan_carpenter)
     return np.full(len(height), coefficient)
@@ -92,8 +92,8 @@ def coefficient_at(coefficient: Coefficient, height: Array, keulegan_carpenter: 
 class MarineGrowth(Definition):
     """Layer of marine growth between two heights, on the outside of the wall.
 
-    The default density is that which DNV's rules for offshore structures give for want of a better
-    one. The drag coefficient is that of the rough surface, by default the smooth one's.
+    The default density is that of DNV's rules for offshore structures in the absence of data. The
+    drag coefficient is that of the rough surface, by default the one without growth.
     """
 
     z: tuple[Height, Height] = Field(alias="z_m")
@@ -121,7 +121,7 @@ class MarineGrowth(Definition):
 
 
 class SealedPile(Definition):
-    """Nothing inside."""
+    """No water inside."""
 
     kind: Literal["sealed"]
 
@@ -141,18 +141,18 @@ Contents = Annotated[SealedPile | FloodedPile, Field(discriminator="kind")]
 
 
 class Hydrodynamics(Definition):
-    """Coefficients of Morison's equation, and what else the water does to the members.
+    """Coefficients of Morison's equation and other hydrodynamic settings.
 
     Attributes
     ----------
     added_mass_coefficient, drag_coefficient : float or table
         Constant, over height, or over the Keulegan-Carpenter number.
     diffraction : {"none", "maccamy_fuchs"}
-        ``"none"``, or ``"maccamy_fuchs"`` for the wave's inertia force.
+        Diffraction theory for the wave's inertia force.
     marine_growth : tuple of MarineGrowth
         Layers, from the lowest to the highest.
     contents : SealedPile or FloodedPile
-        What is inside below the level.
+        Content of the pile.
     buoyancy : bool
         Whether hydrostatic pressure acts on the walls.
     """
@@ -170,7 +170,7 @@ class Hydrodynamics(Definition):
             if upper.bottom < lower.top:
                 raise ValueError(
                     f"a layer of marine_growth begins at z_m = {upper.bottom}, below the top of "
-                    f"the one before it ({lower.top}); list layers from the lowest up, without "
+                    f"the previous layer ({lower.top}); list layers from the lowest up, without "
                     "overlap"
                 )
         return self
@@ -182,31 +182,31 @@ class Hydrodynamics(Definition):
         return any(isinstance(one, CoefficientOverKeuleganCarpenter) for one in given)
 
     def growth_at(self, height: Array) -> Array:
-        """(n,) thickness of marine growth in m at heights; on a boundary that of the upper one."""
+        """(n,) thickness of marine growth in m at heights; on a boundary of the upper layer."""
         thickness = np.zeros(len(height))
         for layer in self.marine_growth:
             thickness[(height >= layer.bottom) & (height < layer.top)] = layer.thickness
         return thickness
 
     def check_fits(self, mudline: float, top: float) -> None:
-        """Growth and water inside that lie on the structure.
+        """Check that marine growth and water inside are within the structure.
 
         Raises
         ------
         ValueError
-            They do not.
+            They are not.
         """
         for layer in self.marine_growth:
             if layer.bottom < mudline or layer.top > top:
                 raise ValueError(
-                    f"marine growth from z_m = {layer.bottom} to {layer.top} leaves the structure "
-                    f"above the mudline, which runs from {mudline} to {top} m; correct its ends"
+                    f"marine growth from z_m = {layer.bottom} to {layer.top} is not within the "
+                    f"structure above the mudline, {mudline} to {top} m; correct its ends"
                 )
         if isinstance(self.contents, FloodedPile):
             plug = mudline if self.contents.plug is None else self.contents.plug
             if not mudline <= plug < self.contents.level <= top:
                 raise ValueError(
-                    f"water inside from a plug at {plug} m to a level_m of {self.contents.level} "
-                    f"does not lie between the mudline and the top ({mudline} to {top} m) in this "
-                    "order; correct plug_m or level_m"
+                    f"water inside from plug_m = {plug} to level_m = {self.contents.level} is not "
+                    f"between the mudline and the top ({mudline} to {top} m); correct plug_m or "
+                    "level_m"
                 )

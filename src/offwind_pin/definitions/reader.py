@@ -28,10 +28,14 @@ def load_turbine(name_or_path: str | Path) -> Turbine:
     name_or_path : str or Path
         A shipped name (``"oc6_phase2"``) or the path of a YAML file.
 
+    Returns
+    -------
+    Turbine
+
     Raises
     ------
     InputError
-        The name is unknown, or the file cannot be read or understood.
+        An unknown name, or a file that cannot be read or is not a valid definition.
     """
     path = find_definition(name_or_path, shipped_turbines(), "turbine")
     return read_definition(path, Turbine)
@@ -55,7 +59,7 @@ def find_definition(name_or_path: str | Path, shipped: list[str], kind: str) -> 
 
 
 def read_definition(path: Path, kind: type[Kind]) -> Kind:
-    """A definition from a YAML file; relative paths in it start at its folder.
+    """A definition from a YAML file; paths in it are relative to its folder.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""What the air does to a rotor, as tables over the wind speed: thrust coefficient, rotor speed."""
+"""Rotor operation as tables over the wind speed: thrust coefficient and rotor speed."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from offwind_pin.base.definition import Definition, Integer, NonNegative, Number
 WindSpeed = Annotated[Positive, Field(le=100)]
 
 _LARGEST_COEFFICIENT = 1.5
-"""Beyond it the empirical branch of momentum theory leaves its measurements."""
+"""Limit of the measurements behind the empirical branch of momentum theory."""
 
 _STANDARD_AIR = 1.225
 """kg/m3, the standard atmosphere at sea level (ISO 2533)."""
@@ -22,16 +22,16 @@ def _check_wind_speeds(wind_speed: tuple[float, ...], values: tuple[float, ...])
     if len(wind_speed) != len(values):
         raise ValueError(
             f"wind_speed_m_per_s has {len(wind_speed)} entries and value {len(values)}; give one "
-            "value for each wind speed"
+            "value per wind speed"
         )
     if np.any(np.diff(wind_speed) <= 0):
-        raise ValueError("wind_speed_m_per_s must rise strictly; sort the table")
+        raise ValueError("wind_speed_m_per_s must increase strictly; sort the table")
 
 
 class ThrustCoefficient(Definition):
     """Steady thrust over rho A U^2 / 2, by the undisturbed wind speed at hub height.
 
-    It is that of the turbine as it runs, tilt, cone and controller included.
+    It is that of the operating turbine, including tilt, cone and controller.
     """
 
     wind_speed: Annotated[tuple[WindSpeed, ...], Field(min_length=3)] = Field(
@@ -44,8 +44,8 @@ class ThrustCoefficient(Definition):
         _check_wind_speeds(self.wind_speed, self.value)
         if max(self.value) > _LARGEST_COEFFICIENT:
             raise ValueError(
-                f"a thrust coefficient of {max(self.value):g} is no rotor's; give the thrust over "
-                f"rho A U^2 / 2, at most {_LARGEST_COEFFICIENT:g}, not a thrust in kN"
+                f"a thrust coefficient of {max(self.value):g} is too large for a rotor; give the "
+                f"thrust over rho A U^2 / 2, at most {_LARGEST_COEFFICIENT:g}, not a thrust in kN"
             )
         if not any(self.value):
             raise ValueError("the thrust coefficients are all zero; one of them must be positive")
@@ -69,8 +69,8 @@ class RotorSpeed(Definition):
 class Rotor(Definition):
     """Steady operation of the rotor.
 
-    The second half of the keys is for a rotor-nacelle assembly that is given as one rigid body, and
-    is left out where it is given by its parts; lengths and signs are those of ``RotorNacelleRNA``.
+    The second half of the keys is for a rotor-nacelle assembly given as one rigid body, and is
+    omitted where it is given by its parts; lengths and signs are those of ``RotorNacelleRNA``.
     """
 
     thrust_coefficient: ThrustCoefficient
@@ -97,11 +97,11 @@ class Rotor(Definition):
         first, last = self.thrust_coefficient.wind_speed[0], self.thrust_coefficient.wind_speed[-1]
         if not first < self.rated_wind_speed < last:
             raise ValueError(
-                f"rated_wind_speed_m_per_s = {self.rated_wind_speed} is off the table of the "
-                f"thrust coefficient ({first} to {last} m/s); lengthen the table"
+                f"rated_wind_speed_m_per_s = {self.rated_wind_speed} is outside the table of the "
+                f"thrust coefficient ({first} to {last} m/s); extend the table"
             )
         return self
 
 
 GEOMETRY = ("radius", "blades", "overhang", "shaft_tilt", "tower_to_shaft")
-"""What a rigid body does not tell of its rotor."""
+"""Rotor data that a rigid body does not contain."""

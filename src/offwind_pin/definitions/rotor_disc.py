@@ -1,4 +1,4 @@
-"""The disc that the rotor sweeps: where it is, how it is tilted, and what drives it."""
+"""Geometry and operation of the disc swept by the rotor."""
 
 from __future__ import annotations
 
@@ -21,15 +21,15 @@ class RotorDisc:
     rotor : Rotor
         Its tables.
     blades : int
-        How many.
+        Number of blades.
     radius, overhang, tower_to_shaft : float, m
         The shaft crosses the tower's axis ``tower_to_shaft`` above the yaw bearing.
     tilt : float, rad
-        Of the shaft, negative where an upwind rotor looks upwards.
+        Tilt of the shaft, negative for an upwind rotor that is tilted upwards.
     shaft_height : float, m
-        Of that crossing above still water level.
+        Height of that crossing above still water level.
     tower_height, tower_diameter : tuple of float, m
-        Stations of the tower that stands behind or before it.
+        Stations of the tower behind or in front of the rotor.
     """
 
     rotor: Rotor
@@ -58,15 +58,16 @@ class RotorDisc:
         Raises
         ------
         InputError
-            The turbine has no table of it.
+            The turbine has no table of the rotor speed.
         """
         table = self.rotor.rotor_speed
         if table is None:
             raise InputError(
                 "rotor, field rotor_speed_rpm",
-                "nothing",
-                "a table {wind_speed_m_per_s: [...], value: [...]}",
-                "Add it: blades that turn sample shear, tower shadow and turbulence.",
+                "a required key is missing",
+                "",
+                "Add a table {wind_speed_m_per_s: [...], value: [...]}: rotating blades sample "
+                "shear, tower shadow and turbulence.",
             )
         return float(np.interp(wind_speed, table.wind_speed, table.value)) * np.pi / 30
 
@@ -74,18 +75,27 @@ class RotorDisc:
 def rotor_disc(turbine: Turbine) -> RotorDisc:
     """The disc of a turbine's rotor.
 
+    Parameters
+    ----------
+    turbine : Turbine
+
+    Returns
+    -------
+    RotorDisc
+
     Raises
     ------
     InputError
-        The turbine has no block ``rotor``, or one that does not tell where the rotor is.
+        The turbine has no block ``rotor``, or one without the position of the rotor.
     """
     rotor, rna = turbine.rotor, turbine.rna
     if rotor is None:
         raise InputError(
             f"turbine {turbine.name}, field rotor",
-            "nothing",
-            "a block with thrust_coefficient and rated_wind_speed_m_per_s",
-            "Add it, see docs/turbine_file.md, or give a tower-top load file.",
+            "a required key is missing",
+            "",
+            "Add a block with thrust_coefficient and rated_wind_speed_m_per_s, see "
+            "docs/turbine_file.md, or use a tower-top load file.",
         )
     given: RotorNacelleRNA | Rotor = rotor
     if isinstance(rna, RotorNacelleRNA):
@@ -97,8 +107,8 @@ def rotor_disc(turbine: Turbine) -> RotorDisc:
             raise InputError(
                 f"turbine {turbine.name}, field rotor",
                 f"no {', '.join(keys)}",
-                "all of them, where rna is of kind rigid_body and does not tell",
-                "Add them, or give rotor and nacelle inputs.",
+                "all of these keys, since rna is of kind rigid_body",
+                "Add them, or use rna of kind rotor_nacelle.",
             )
         radius = rotor.radius
     return RotorDisc(

@@ -20,7 +20,7 @@ class RigidBody:
 
     @staticmethod
     def combine(parts: list[RigidBody]) -> RigidBody:
-        """One rigid body out of several, by the parallel-axis theorem."""
+        """Combine rigid bodies by the parallel-axis theorem."""
         mass = float(sum(part.mass for part in parts))
         center = np.sum([part.mass * part.center_of_mass for part in parts], axis=0) / mass
         inertia = np.sum(
@@ -41,8 +41,8 @@ def point_inertia(mass: float, offset: Array) -> Array:
 def lump_rna(rna: RigidBodyRNA | RotorNacelleRNA) -> RigidBody:
     """Rotor-nacelle assembly as one rigid body, offsets from the yaw bearing.
 
-    The rotor is parked and locked, one blade pointing up; the generator turns with the shaft, so
-    that its inertia counts about the shaft axis. The yaw bearing is a point mass at the origin.
+    The rotor is parked and locked with one blade pointing up; the generator rotates with the shaft,
+    so its inertia counts about the shaft axis. The yaw bearing is a point mass at the origin.
     """
     if isinstance(rna, RigidBodyRNA):
         return RigidBody(rna.mass, np.array(rna.center_of_mass), np.array(rna.inertia))

@@ -17,9 +17,9 @@ class Section:
     member, material : str
         Names in the turbine's definition.
     diameter : float, m
-        Of the outside.
+        Outer diameter.
     thickness : float, m
-        Of the wall.
+        Wall thickness.
     """
 
     z: float
@@ -30,7 +30,7 @@ class Section:
 
     @property
     def inner_diameter(self) -> float:
-        """In m."""
+        """Inner diameter in m."""
         return self.diameter - 2 * self.thickness
 
     @property
@@ -41,7 +41,7 @@ class Section:
     @property
     def second_moment(self) -> float:
         """Second moment of area about a diameter in m4."""
-        # (D^2 + d^2)/16 A, which does not cancel for a thin wall as D^4 - d^4 does.
+        # (D^2 + d^2)/16 A avoids the cancellation of D^4 - d^4 for thin walls.
         return self.area * (self.diameter**2 + self.inner_diameter**2) / 16
 
     @property

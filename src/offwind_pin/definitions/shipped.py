@@ -6,7 +6,12 @@ from importlib import resources
 
 
 def shipped_turbines() -> list[str]:
-    """Names of the turbines that come with the package."""
+    """Names of the turbines that come with the package.
+
+    Returns
+    -------
+    list of str
+    """
     library = resources.files("offwind_pin.definitions") / "library"
     return sorted(
         entry.name.removesuffix(".yaml")

@@ -1,4 +1,4 @@
-"""Tuned mass dampers: how a turbine file describes them, and Den Hartog's optimum."""
+"""Tuned mass dampers: definition in a turbine file, and Den Hartog's optimum."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ _TUNED = ("frequency_hz", "damping_ratio")
 class TunedMassDamper(Definition):
     """Point mass that slides across the axis on a spring and a linear damper.
 
-    Along the axis the body that carries it holds it. Spring and damper are given as such, or by the
-    natural frequency and the damping ratio of the damper on a carrier at rest; with
-    ``direction: both`` they are the same along x and y of the carrier. The travel stops nothing:
-    simulations tell where it is exceeded.
+    Along the axis it is fixed to its carrier. Spring and damper are given directly, or by the
+    natural frequency and damping ratio on a carrier at rest; with ``direction: both`` they are the
+    same along x and y of the carrier. The travel has no end stops: simulations warn if it is
+    exceeded.
     """
 
     name: Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$")]
@@ -54,14 +54,14 @@ class TunedMassDamper(Definition):
 
     @property
     def stiffness(self) -> float:
-        """Of the spring in N/m."""
+        """Stiffness of the spring in N/m."""
         if self.frequency is None:
             return self.own_stiffness or 0.0
         return self.mass * (2 * math.pi * self.frequency) ** 2
 
     @property
     def damping(self) -> float:
-        """Of the damper in N s/m."""
+        """Coefficient of the damper in N s/m."""
         if self.damping_ratio is None:
             return self.own_damping or 0.0
         return 2 * self.damping_ratio * math.sqrt(self.stiffness * self.mass)
@@ -69,7 +69,7 @@ class TunedMassDamper(Definition):
 
 @dataclass(frozen=True)
 class DampedAbsorber:
-    """What a tuned mass damper needs for the least resonance of an undamped structure.
+    """Optimum tuned mass damper of an undamped structure.
 
     Attributes
     ----------
@@ -78,11 +78,10 @@ class DampedAbsorber:
     frequency_ratio : float
         Natural frequency of the damper alone over that of the mode without it.
     damping_ratio : float
-        Of critical of the damper alone, c / (2 sqrt(k m)): the key of that name in a turbine file.
+        Damping ratio of the damper alone, c / (2 sqrt(k m)), as in a turbine file.
     amplification : float
-        Of the mode's motion under a harmonic force, over that under a constant one, at the two
-        frequencies at which it does not depend on the damper; its largest value but for some
-        thousandths.
+        Motion of the mode under a harmonic force over that under a constant one, at the two
+        frequencies at which it does not depend on the damping; within some thousandths the largest.
     """
 
     mass_ratio: float
@@ -102,7 +101,12 @@ def den_hartog(mass_ratio: float) -> DampedAbsorber:
     Parameters
     ----------
     mass_ratio : float
-        Mass of the damper over the modal mass, the shape being one where the damper sits.
+        Mass of the damper over the modal mass of the mode, with the shape scaled to 1 at the
+        damper.
+
+    Returns
+    -------
+    DampedAbsorber
 
     Raises
     ------

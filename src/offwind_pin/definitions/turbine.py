@@ -1,7 +1,7 @@
-"""What a turbine and its site are: typed, frozen, SI.
+"""Definition of a turbine and its site, in SI units.
 
-A file carries units in its keys (``diameter_m``); in Python the same quantity is plain
-(``diameter``). Axes: x downwind, y left looking downwind, z up from still water level.
+Keys in files have units (``diameter_m``), names in Python do not (``diameter``). Axes: x downwind,
+y left looking downwind, z up from still water level.
 """
 
 from __future__ import annotations
@@ -33,9 +33,10 @@ from offwind_pin.definitions.tuned_mass_damper import TunedMassDamper
 Angle = Annotated[Number, Field(ge=-30, le=30)]
 
 _KEPT_NAMES = {"base", "mono", "pile", "rna", "root", "world"}
-"""Names that the chain gives to parts of its own."""
+"""Names reserved for parts of the chain."""
 _KEPT_BEGINNING = "zz"
-"""Of joints that must come last in the alphabet; see :mod:`offwind_pin.structure.tuned_mass`."""
+"""Prefix of joints that must come last in the alphabet; see
+:mod:`offwind_pin.structure.tuned_mass`."""
 
 
 class Material(Definition):
@@ -76,12 +77,12 @@ class Member(Definition):
         for lower, upper in itertools.pairwise(heights):
             if upper == lower:
                 raise ValueError(
-                    f"two stations are at z_m = {upper}; stations must rise strictly in z_m: for a "
-                    "step of diameter or wall begin another member there, or remove one of the two"
+                    f"two stations are at z_m = {upper}; start another member there for a step of "
+                    "diameter or wall thickness, or remove one of the two"
                 )
             if upper < lower:
                 raise ValueError(
-                    f"stations must rise strictly in z_m, but {upper} follows {lower}; "
+                    f"stations must increase strictly in z_m, but {upper} follows {lower}; "
                     "sort them from the lowest to the highest"
                 )
         return self
@@ -110,7 +111,7 @@ class PointMass(Definition):
         if self.inertia[0] != self.inertia[1]:
             raise ValueError(
                 f"inertia_kg_m2 has {self.inertia[0]} about x and {self.inertia[1]} about y; "
-                "bodies of the chain are round, give the same value twice"
+                "give the same value twice, since bodies of the chain are axisymmetric"
             )
         return self
 
@@ -153,12 +154,14 @@ class Blade(Definition):
         if len(self.span_fraction) != len(self.mass_density):
             raise ValueError(
                 f"span_fraction has {len(self.span_fraction)} entries and mass_density_kg_per_m "
-                f"{len(self.mass_density)}; give one density for each fraction"
+                f"{len(self.mass_density)}; give one density per fraction"
             )
         if self.span_fraction[0] != 0 or self.span_fraction[-1] != 1:
             raise ValueError("span_fraction must run from 0 (root) to 1 (tip)")
         if np.any(np.diff(self.span_fraction) <= 0):
-            raise ValueError("span_fraction must rise strictly; sort the table from root to tip")
+            raise ValueError(
+                "span_fraction must increase strictly; sort the table from root to tip"
+            )
         return self
 
 
@@ -195,15 +198,15 @@ class RotorNacelleRNA(Definition):
                 "give the inertia about the yaw axis"
             )
         if not any(self.blade.mass_density):
-            raise ValueError("the blade weighs nothing; mass_density_kg_per_m must not be all zero")
+            raise ValueError("mass_density_kg_per_m is all zero; give the blade's mass density")
         return self
 
 
 class Site(Definition):
     """Water, mudline and gravity.
 
-    The original mudline lies at z = -water_depth, the actual one deeper by the scour depth (higher,
-    where it is negative: deposition).
+    The original mudline is at z = -water_depth, the actual one deeper by the scour depth (higher if
+    it is negative, for deposition).
     """
 
     water_depth: Annotated[Positive, Field(le=500)] = Field(alias="water_depth_m")
@@ -217,8 +220,8 @@ class Site(Definition):
     def _mudline_under_water(self) -> Site:
         if self.mudline >= 0:
             raise ValueError(
-                f"a scour_depth_m of {self.scour_depth} lifts the mudline to z = {self.mudline} m, "
-                "out of the water; a negative scour depth is deposition"
+                f"a scour_depth_m of {self.scour_depth} raises the mudline to z = {self.mudline} "
+                "m, out of the water; give a smaller deposition (negative scour depth)"
             )
         return self
 
@@ -234,7 +237,33 @@ def _range(values: Iterable[float]) -> str:
 
 
 class Turbine(Definition):
-    """A monopile wind turbine and its site."""
+    """A turbine: what a turbine file contains.
+
+    Attributes
+    ----------
+    name : str
+        Short name, used in file names.
+    description : str
+    site : Site
+        Mudline, water and gravity.
+    materials : dict of str to Material
+        By name.
+    members : tuple of Member
+        Pile, monopile and tower, from below.
+    point_masses : tuple of PointMass
+        Masses on the axis.
+    tuned_mass_dampers : tuple of TunedMassDamper
+    rna : RigidBodyRNA or RotorNacelleRNA
+        Rotor-nacelle assembly.
+    rotor : Rotor or None
+        Tables of the operating rotor.
+    hydrodynamics : Hydrodynamics
+        Coefficients and settings of the hydrodynamic loads.
+    soil : Soil
+        Parameters of each kind of foundation.
+    structural_damping : DampingCalibration or None
+        Required damping ratios of modes.
+    """
 
     name: Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9._-]*$")]
     description: str = ""
@@ -276,20 +305,20 @@ class Turbine(Definition):
         for member in self.members:
             if member.material not in self.materials:
                 raise ValueError(
-                    f"member {member.name} is made of {member.material!r}, which materials does "
-                    f"not list (it has {', '.join(self.materials)})"
+                    f"the material {member.material!r} of member {member.name} is not in "
+                    f"materials; choose one of {', '.join(self.materials)}"
                 )
         names = [member.name for member in self.members]
         if len(set(names)) < len(names) or not _KEPT_NAMES.isdisjoint(names):
             raise ValueError(
-                f"members are named {', '.join(names)}; give them different names, and none of "
+                f"members are named {', '.join(names)}; use different names, other than "
                 f"{', '.join(sorted(_KEPT_NAMES))}"
             )
         for name in names:
             if name.startswith(_KEPT_BEGINNING):
                 raise ValueError(
-                    f"member {name} begins with {_KEPT_BEGINNING}, as joints of tuned mass dampers "
-                    "do; give it another name"
+                    f"the name of member {name} begins with {_KEPT_BEGINNING}, which is reserved "
+                    "for tuned mass dampers; choose another name"
                 )
         for lower, upper in zip(self.members, self.members[1:], strict=False):
             if upper.bottom != lower.top:
@@ -300,18 +329,16 @@ class Turbine(Definition):
         if self.site.mudline < self.toe:
             raise ValueError(
                 f"the mudline (z = {self.site.mudline} m, from water_depth_m and "
-                f"scour_depth_m) lies below the pile toe (z = {self.toe} m); "
+                f"scour_depth_m) is below the pile toe (z = {self.toe} m); "
                 "lower the toe or reduce the water depth"
             )
         if self.site.mudline >= self.yaw_bearing:
-            raise ValueError(
-                "the whole structure lies below the mudline; check z_m of the stations"
-            )
+            raise ValueError("the whole structure is below the mudline; check z_m of the stations")
         for mass in self.point_masses:
             if not self.toe <= mass.z <= self.yaw_bearing:
                 raise ValueError(
-                    f"point mass {mass.name!r} at z_m = {mass.z} is off the structure, which runs "
-                    f"from {self.toe} to {self.yaw_bearing} m"
+                    f"point mass {mass.name!r} at z_m = {mass.z} is outside the structure; give a "
+                    f"height from {self.toe} to {self.yaw_bearing} m"
                 )
         self.hydrodynamics.check_fits(self.site.mudline, self.yaw_bearing)
         return self
@@ -323,7 +350,7 @@ class Turbine(Definition):
         given = [name for name in GEOMETRY if getattr(self.rotor, name) is not None]
         if given not in ([], ["radius"]):
             raise ValueError(
-                f"rotor gives {', '.join(given)}, which rna gives already; keep radius_m at most"
+                f"rotor repeats {', '.join(given)} of rna; leave them out (radius_m may stay)"
             )
         return self
 
@@ -332,19 +359,24 @@ class Turbine(Definition):
         names = [damper.name for damper in self.tuned_mass_dampers]
         if len(set(names)) < len(names):
             raise ValueError(
-                f"tuned mass dampers are named {', '.join(names)}; give them different names"
+                f"tuned mass dampers are named {', '.join(names)}; use different names"
             )
         for damper in self.tuned_mass_dampers:
             if not self.site.mudline <= damper.z <= self.yaw_bearing:
                 raise ValueError(
-                    f"tuned mass damper {damper.name} at z_m = {damper.z} is off the structure "
-                    f"above the mudline, which runs from {self.site.mudline} to "
-                    f"{self.yaw_bearing} m; hang it in there"
+                    f"tuned mass damper {damper.name} at z_m = {damper.z} is outside the structure "
+                    f"above the mudline; give a height from {self.site.mudline} to "
+                    f"{self.yaw_bearing} m"
                 )
         return self
 
     def with_dampers_locked(self) -> Turbine:
-        """The same with each tuned mass damper as a point mass that cannot slide."""
+        """The same turbine with tuned mass dampers as fixed point masses.
+
+        Returns
+        -------
+        Turbine
+        """
         locked = tuple(
             PointMass(name=damper.name, z_m=damper.z, mass_kg=damper.mass)
             for damper in self.tuned_mass_dampers
@@ -360,19 +392,23 @@ class Turbine(Definition):
         z : float, m
             From the toe to the yaw bearing.
         side : {"above", "below"}
-            Whose section counts where two members of different sections meet.
+            Which section to use where two members of different sections meet.
+
+        Returns
+        -------
+        Section
 
         Raises
         ------
         InputError
-            A height off the structure, or an unknown side.
+            A height outside the structure, or an unknown side.
         """
         if not self.toe <= z <= self.yaw_bearing:
             raise InputError(
                 f"turbine {self.name}, section, z",
                 z,
                 f"{self.toe:g} to {self.yaw_bearing:g} m, from the toe to the yaw bearing",
-                "Heights are above still water level.",
+                "Give the height above still water level.",
             )
         if side not in ("above", "below"):
             raise InputError("section, side", side, "above or below", "Choose one.")
@@ -390,5 +426,5 @@ class Turbine(Definition):
 
     @property
     def yaw_bearing(self) -> float:
-        """Height of the highest station in m, where the rotor-nacelle assembly sits."""
+        """Height of the highest station in m, the yaw bearing."""
         return self.members[-1].top

@@ -1,4 +1,4 @@
-"""The rotor-nacelle assembly as results carry it."""
+"""The rotor-nacelle assembly in results."""
 
 from __future__ import annotations
 

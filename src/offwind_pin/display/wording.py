@@ -15,7 +15,7 @@ _ROUNDING = 5e-4
 
 
 def foundation_name(name: str) -> str:
-    """A foundation in plain words; one that is not registered by its own name."""
+    """Description of a foundation; an unregistered one has its name."""
     return FOUNDATIONS[name].description if name in FOUNDATIONS else name
 
 
@@ -26,19 +26,19 @@ def supported_on(name: str) -> str:
 
 
 def base_name(name: str) -> str:
-    """What the lower end of a structure is that reaches below the mudline."""
+    """Name of the lower end of a structure that extends below the mudline."""
     return FOUNDATIONS[name].lower_end if name in FOUNDATIONS else "lower end"
 
 
 def water_level_name(level: float) -> str:
-    """The mean surface of the water by its height in m."""
+    """Description of the mean water surface by its height in m."""
     return "still water" if level == 0 else f"water level {fixed(level, 2, sign=True)} m"
 
 
 def number(value: float, significant: int = 4) -> str:
     """A number with significant digits, a true minus sign, and spaces between thousands.
 
-    Very large and very small ones as a mantissa and a power of ten.
+    Very large and very small numbers have a mantissa and a power of ten.
     """
     if not math.isfinite(value):
         return "not a number" if math.isnan(value) else ("∞" if value > 0 else f"{MINUS}∞")
@@ -54,7 +54,7 @@ def number(value: float, significant: int = 4) -> str:
 
 
 def fixed(value: float, decimals: int, *, sign: bool = False) -> str:
-    """A number with decimals, a true minus sign, and a plus sign if asked for."""
+    """A number with decimals, a true minus sign, and optionally a plus sign."""
     return f"{value:{'+' if sign else ''}.{decimals}f}".replace("-", MINUS)
 
 
@@ -64,17 +64,17 @@ def count(value: int) -> str:
 
 
 def quantity(value: float, unit: str, significant: int = 4) -> str:
-    """A number that stays on one line with its unit."""
+    """A number with a unit, joined without a line break."""
     return f"{number(value, significant)}{_NO_BREAK}{unit}"
 
 
 def as_given(value: float) -> str:
-    """A number with the digits it was given, such as a published one."""
+    """A number with its given digits, such as a published one."""
     return f"{value:.10g}".replace("-", MINUS)
 
 
 def significant_digits(value: float) -> int:
-    """How many digits a number was given with: 3 for 0.236."""
+    """Number of given digits: 3 for 0.236."""
     mantissa = f"{abs(value):.10g}".split("e")[0]
     return len(mantissa.replace(".", "").lstrip("0"))
 
@@ -85,12 +85,12 @@ def relative_difference(ours: float, reference: float) -> float | None:
 
 
 def difference(ours: float, reference: float, unit: str) -> str:
-    """How far ours lies from a reference: in percent, or in multiples where percents mislead."""
+    """Difference from a reference in per cent, or as a factor where that is clearer."""
     relative = relative_difference(ours, reference)
     if relative is None:
-        return f"{number(ours - reference, 3)} {unit} apart".replace("  ", " ")
+        return f"difference {number(ours - reference, 3)} {unit}".rstrip()
     if abs(relative) < _ROUNDING:
-        return "the same within 0.05 %"
+        return "equal within 0.05 %"
     if relative >= 1 or (-1 < relative <= -0.5):
         return f"{number(ours / reference, 3)} times the published value"
     side = "above" if relative > 0 else "below"
@@ -111,12 +111,12 @@ def listing(items: list[str]) -> str:
 
 
 def sentence(text: str) -> str:
-    """First letter large, full stop at the end."""
+    """Capitalised, with a full stop at the end."""
     text = text.strip()
     return text[:1].upper() + text[1:] + ("" if text.endswith((".", "!", "?")) else ".")
 
 
 def surrogate_notes(attributes: Mapping[str, object]) -> list[str]:
-    """What results say of each surrogate that they were computed with."""
+    """Notes of results on the surrogates with which they were computed."""
     notes = str(attributes.get("surrogates", "none")).split(" | ")
     return [note for note in notes if note not in {"", "none"}]

@@ -1,4 +1,4 @@
-"""All loads that act on a system, their memory, and where they meet the ground."""
+"""All loads on a system, their memory, and their excitation by the ground."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ from offwind_pin.loads.point_load import KernelLoad, PointLoad
 from offwind_pin.loads.root_restraint import KernelRestraint
 
 _REACH = 20.0
-"""m above the yaw bearing up to which the last body carries loads; shafts cross the axis below."""
+"""Height in m above the yaw bearing up to which the last body carries loads."""
 
 
 def base_excitation_of(
     system: System, loads: Sequence[PointLoad], motion: GroundMotion | None
 ) -> BaseExcitation:
-    """Where base and soil meet a moving ground, of all the loads of a system.
+    """Excitation of base and soil by a moving ground.
 
     Raises
     ------
     InputError
-        The motion is not given at every depth that it is needed at.
+        The motion is not given at all required depths.
     """
     height = np.concatenate([np.zeros(0), *(load.height for load in loads)])
     if motion is None:
@@ -41,19 +41,19 @@ def base_excitation_of(
 def split_memory(
     loads: Sequence[KernelLoad], root: KernelRestraint, memory: Array | None
 ) -> list[Array]:
-    """What each load and, last, the root keep of their past; nothing happened unless given."""
+    """Memory of each load and, last, of the root; zero by default."""
     sizes = [*(load.memory_size for load in loads), root.memory_size]
     whole = np.zeros(sum(sizes)) if memory is None else memory
     return np.split(whole, np.cumsum(sizes)[:-1])
 
 
 def all_loads(system: System, loads: Sequence[PointLoad]) -> list[PointLoad]:
-    """Every point load of a system: the water's, the soil's, its damping, and what was given.
+    """All point loads of a system: hydrodynamic loads, soil, structural damping, given loads.
 
     Raises
     ------
     InputError
-        A load beside the structure, or something that is no load.
+        A load outside the structure, or an object that is not a load.
     """
     for given in loads:
         if not isinstance(given, PointLoad):
@@ -78,7 +78,7 @@ def all_loads(system: System, loads: Sequence[PointLoad]) -> list[PointLoad]:
                 f"load {load.name!r}, height",
                 float(load.height[outside][0]),
                 f"{system.chain.base} to {highest} m",
-                "Loads act on the axis of the structure, or of the nacelle above it.",
+                "Choose heights on the axis of the structure, or of the nacelle above it.",
             )
     return everything
 
@@ -96,7 +96,7 @@ def part_of_loads(system: System, loads: Sequence[PointLoad]) -> list[str]:
 
 
 def compiled_loads(loads: Sequence[PointLoad]) -> list[KernelLoad]:
-    """All loads as compiled code sees them, part by part."""
+    """All loads for compiled code, part by part."""
     return [part for load in loads for part in load.compiled()]
 
 

@@ -1,4 +1,4 @@
-"""Where a chain meets the moving ground: its base, and the points of its soil."""
+"""Excitation of a chain by a moving ground, at its base and its soil nodes."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from offwind_pin.structure.chain import NDArrayInt
 
 @dataclass(frozen=True, eq=False)
 class BaseExcitation:
-    """How P loaded points and, last, the base take part in a ground motion of D levels.
+    """Excitation of P loaded points and, last, the base by a ground motion at D levels.
 
     levels : D, zero without a ground motion
-    level : (P + 1,) level at or below each of them, -1 where the ground is not met
-    share : (P + 1,) of the next level, from 0 to 1
+    level : (P + 1,) level at or below each of them, -1 for points that do not move with the ground
+    share : (P + 1,) weight of the next level, from 0 to 1
     """
 
     levels: int
@@ -28,19 +28,20 @@ class BaseExcitation:
 
     @staticmethod
     def nowhere(points: int) -> BaseExcitation:
-        """Without an earthquake."""
+        """No excitation, without an earthquake."""
         return BaseExcitation(0, np.full(points + 1, -1, dtype=np.intp), np.zeros(points + 1))
 
     @staticmethod
     def of(motion: GroundMotion, height: Array, meets: NDArray[np.bool_]) -> BaseExcitation:
-        """The same at heights (P + 1,) in m, where (P + 1,) of them meet the ground."""
+        """Excitation at heights (P + 1,) in m; meets (P + 1,) is whether each moves with the
+        ground."""
         level, share = between_levels(motion, height)
         return BaseExcitation(
             len(motion.levels), np.where(meets, level, -1), np.where(meets, share, 0.0)
         )
 
     def at(self, motion: Array) -> Array:
-        """(P + 1, 3, 3) displacement, velocity and acceleration out of the levels' (D, 3, 3)."""
+        """(P + 1, 3, 3) displacement, velocity and acceleration from those of levels (D, 3, 3)."""
         if self.levels == 0:
             return np.zeros((len(self.level), 3, 3))
         above = np.minimum(self.level + 1, self.levels - 1)
@@ -50,7 +51,8 @@ class BaseExcitation:
 
 
 def between_levels(motion: GroundMotion, height: Array) -> tuple[NDArrayInt, Array]:
-    """(n,) level at or below each height in m, and the share of the next; one is everywhere."""
+    """(n,) level at or below each height in m, and weight of the next; a single level is
+    everywhere."""
     if len(motion.levels) == 1:
         return np.zeros(len(height), dtype=np.intp), np.zeros(len(height))
     levels = motion.levels
@@ -60,11 +62,11 @@ def between_levels(motion: GroundMotion, height: Array) -> tuple[NDArrayInt, Arr
 
 
 _NEARNESS = 1e-6
-"""m by which a node may lie beyond the first or last level: heights are sums of rounded numbers."""
+"""m by which a node may be beyond the first or last level, since heights have rounding errors."""
 
 
 def check_reach(motion: GroundMotion, base: float, mudline: float) -> None:
-    """Refuse levels that do not reach from the chain's base to the mudline.
+    """Reject levels that do not extend from the chain's base to the mudline.
 
     Raises
     ------
@@ -78,7 +80,7 @@ def check_reach(motion: GroundMotion, base: float, mudline: float) -> None:
         raise InputError(
             "ground motion, height",
             f"levels from z = {low:g} to {high:g} m",
-            f"levels that reach from the base (z = {base:g} m) to the mudline (z = {mudline:g} m)",
+            f"levels from the base (z = {base:g} m) to the mudline (z = {mudline:g} m)",
             "Add levels, or give one motion for all depths.",
         )
 
@@ -88,4 +90,4 @@ GROUND_NUMBERS = 9
 
 
 BASE = -1
-"""Place of the chain's base after the loaded points, where they meet the ground."""
+"""Index of the chain's base, after the loaded points."""

@@ -8,7 +8,7 @@ from offwind_pin.base.definition import Array
 
 
 class RestingAxis(NamedTuple):
-    """Where the axis is at m heights, and what it carries there.
+    """Displacement, direction and section loads of the axis at m heights.
 
     displacement : (m, 3) in m; direction : (m, 3) unit vectors along the axis, upwards;
     section_load : (m, 6) force (N) and moment (N m) that the part above exerts on the part below

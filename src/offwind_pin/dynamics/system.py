@@ -27,20 +27,20 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class System:
-    """A turbine on its foundation in its sea, ready to be solved.
+    """A turbine on its foundation in its sea, as a system of equations.
 
     Attributes
     ----------
     turbine : Turbine
-        Definition of the structure.
+        Definition of the turbine.
     foundation : Foundation
-        What supports it.
+        The foundation.
     chain : Chain
         Bodies and joints of the structure.
     sea : Sea or None
         None for a dry structure.
     joint_stiffness, joint_damping : (nv,) array
-        Of the chain's springs and dampers, zero at the root.
+        Coefficients of the chain's joint springs and dampers, zero at the root.
     damping_ratios : dict of str to float
         Achieved ratios of the named modes by label, for the record.
     structural_loads : tuple of InertialDamping
@@ -90,25 +90,25 @@ class System:
 
     @cached_property
     def pin_model(self) -> pin.Model:
-        """The ``pinocchio.Model``, read from the URDF on first use; read-only by agreement."""
+        """The ``pinocchio.Model``, read from the URDF on first use; must not be changed."""
         from offwind_pin.structure.pinocchio_model import build_model
 
         return build_model(self.turbine, self.chain)
 
     @cached_property
     def scratch(self) -> Scratch:
-        """Pinocchio's working memory, one for each thread."""
+        """Pinocchio's scratch data, one per thread."""
         from offwind_pin.structure.pinocchio_model import Scratch
 
         return Scratch(self.pin_model)
 
     def __getstate__(self) -> dict[str, Any]:
-        """Everything but Pinocchio's objects, which a copy makes again when it needs them."""
+        """Everything but Pinocchio's objects, which a copy creates on first use."""
         return {k: v for k, v in vars(self).items() if k not in {"pin_model", "scratch"}}
 
     @cached_property
     def hydrodynamics(self) -> HydrodynamicModel | None:
-        """The sea as the structure meets it, realised once; None for a dry structure."""
+        """Hydrodynamic model of the realised sea; None for a dry structure."""
         return None if self.sea is None else HydrodynamicModel.of(self.turbine, self.sea)
 
     def with_damping(
@@ -118,7 +118,20 @@ class System:
         structural_loads: tuple[InertialDamping, ...] = (),
         cautions: tuple[str, ...] = (),
     ) -> System:
-        """The same system with other structural damping."""
+        """The same system with other structural damping.
+
+        Parameters
+        ----------
+        joint_damping : (nv,) array
+        ratios : dict of str to float
+            Achieved damping ratios by mode label.
+        structural_loads : tuple of InertialDamping, optional
+        cautions : tuple of str, optional
+
+        Returns
+        -------
+        System
+        """
         return replace(
             self,
             joint_damping=joint_damping,
@@ -136,10 +149,20 @@ class System:
     ) -> Equations:
         """Equations of motion under loads, by Pinocchio.
 
-        ramp_time : seconds over which waves, and the loads' departures from their means, rise; None
-            for the means alone, as in statics and modes
-        memory : (m,) what soil and foundation keep of their past, as in :class:`StaticResult`
-        ground_motion : of the ground below; root joints then move relative to it
+        Parameters
+        ----------
+        loads : sequence of PointLoad
+            Further loads.
+        ramp_time : float or None, s
+            Length of the ramp; None for the mean loads alone, as in statics and modes.
+        memory : (M,) array, optional
+            Memory of soil and foundation, as in :class:`StaticResult`; zero by default.
+        ground_motion : GroundMotion, optional
+            Earthquake; root joints then move relative to the ground.
+
+        Returns
+        -------
+        Equations
         """
         from offwind_pin.dynamics.reference.equations import Equations
 

@@ -1,4 +1,4 @@
-"""A system as a folder that other programs read: URDF, meshes, sidecar."""
+"""Export of a system for other programs: URDF, meshes and a sidecar file."""
 
 from __future__ import annotations
 
@@ -10,7 +10,19 @@ from offwind_pin.structure.urdf import urdf_text, write_meshes, write_sidecar
 
 
 def export_urdf(system: System, out: Path) -> list[Path]:
-    """Write ``NAME.urdf``, ``NAME.json`` and ``meshes/`` into a folder; returns the first two."""
+    """Write ``NAME.urdf``, ``NAME.json`` and ``meshes/`` to a folder.
+
+    Parameters
+    ----------
+    system : System
+    out : Path
+        Folder, created if necessary.
+
+    Returns
+    -------
+    list of Path
+        Paths of the first two.
+    """
     turbine, chain = system.turbine, system.chain
     for name, content in write_meshes(turbine, chain).items():
         with whole_file(out / "meshes" / name) as temporary:

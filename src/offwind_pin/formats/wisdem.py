@@ -1,16 +1,16 @@
-"""A 6x6 foundation as the pile springs of WISDEM's monopile, and back.
+"""A 6x6 foundation as the pile springs of WISDEM's monopile, and the reverse.
 
 WISDEM (``wisdem/fixed_bottomse/monopile.py``, ``MonopileFrame`` with ``soil_springs: True``) has no
-input for a 6x6. It carries the embedded pile by diagonal springs ``k_soil`` (10, 6), in the order
+input for a 6x6. It supports the embedded pile by diagonal springs ``k_soil`` (10, 6), in the order
 kx, ktheta_x, ky, ktheta_y, kz, ktheta_z, at the heights ``z_soil`` (10,) from minus the embedded
 length at the foot up to 0 at the mudline, and interpolates them to the four nodes of its pile
 (``NREFINE`` + 1, equally spaced, three Frame3DD elements); kz acts at the foot alone. So the 6x6 is
-told to it as springs with which that very pile, condensed to the mudline, is the 6x6. The pile
-itself brings the coupling of sway and rocking.
+expressed as springs with which that pile, condensed to the mudline, has this 6x6. The pile itself
+gives the coupling of sway and rocking.
 
 In the group ``MonopileSE`` both inputs are connected to ``soil.z_k`` and ``soil.k`` of
 ``TowerSoil`` (``wisdem/commonse/environment.py``), which recomputes them at each run; its own
-override ``k_usr`` is one value for all nodes. Numbers set there by name do not last: see
+override ``k_usr`` is one value for all nodes. Values set there by name are overwritten: see
 docs/pile.md for a component in its place. In a problem of ``MonopileFrame`` alone they are free
 inputs, ``prob["z_soil"]`` and ``prob["k_soil"]``. The stiffness of axial load, ``geom`` of
 WISDEM's Frame3DD options, is not part of this.
@@ -37,18 +37,18 @@ _LARGEST_FILE = 1_000_000
 _HEIGHTS, _ELEMENTS = 10, 3
 """``NPTS_SOIL`` and ``NREFINE`` of WISDEM."""
 _EXACT = 1e-9
-"""Relative error of an entry with which springs count as found."""
+"""Relative error of an entry below which the springs count as found."""
 _LEFT_OUT = 1e-3
-"""Entry over the root of its diagonal entries up to which a coupling that no spring makes is left
-out: the weight of a nacelle that leans to one side makes such ones."""
+"""Entry over the root of its diagonal entries below which a coupling that no spring represents is
+omitted: the weight of an off-centre nacelle causes such couplings."""
 _STARTS = 20
 _SMALLEST, _LARGEST = -25.0, 6.0
-"""Logarithms of the springs over the stiffness at the mudline between which they are sought."""
+"""Range of the logarithms of the springs over the stiffness at the mudline in the search."""
 
 
 @dataclass(frozen=True)
 class WisdemPile:
-    """The embedded pile as WISDEM has it, of one section.
+    """The embedded pile of WISDEM, of one section.
 
     Attributes
     ----------
@@ -82,7 +82,7 @@ class WisdemPile:
 
 
 def write_wisdem(path: Path, stiffness: ArrayLike, pile: WisdemPile, *, note: str = "") -> None:
-    """Write ``z_soil`` and ``k_soil`` as JSON, which is YAML too, with lines that explain them.
+    """Write ``z_soil`` and ``k_soil`` as JSON, which is also YAML, with explanations.
 
     The lateral and the rocking springs of the four nodes are sought for each plane by least squares
     of the three entries, in logarithms so that they are positive, from a fixed set of starts. There
@@ -94,7 +94,7 @@ def write_wisdem(path: Path, stiffness: ArrayLike, pile: WisdemPile, *, note: st
     stiffness : (6, 6) array_like
         At the mudline, order x, y, z, rx, ry, rz, N, m, rad; symmetric, with couplings of sway and
         rocking in the same plane only; others below a thousandth of the root of their diagonal
-        entries are left out, and the file says how large they are.
+        entries are omitted, and the file states how large they are.
     note : str
         One line for the head of the file.
 
@@ -120,8 +120,8 @@ def write_wisdem(path: Path, stiffness: ArrayLike, pile: WisdemPile, *, note: st
             "z_soil in m from the mudline; columns of k_soil: kx, ktheta_x, ky, ktheta_y, kz, "
             "ktheta_z in N/m and N m/rad",
             f"For suctionpile_depth {pile.length:.6g} m, EI {pile.bending:.6g} N m2, {shear}, "
-            f"EA {pile.axial:.6g} N, GJ {pile.torsional:.6g} N m2, and for no other pile",
-            f"Couplings left out: up to {left_out:.2g} of the root of their diagonal entries",
+            f"EA {pile.axial:.6g} N, GJ {pile.torsional:.6g} N m2; valid for this pile only",
+            f"Couplings omitted: up to {left_out:.2g} of the root of their diagonal entries",
         ],
         "z_soil": heights.tolist(),
         "k_soil": np.transpose([np.interp(heights, at, column) for column in nodes.T]).tolist(),
@@ -140,8 +140,8 @@ def read_wisdem(path: Path, pile: WisdemPile) -> Array:
     """
     heights, springs = _read(path)
     if not np.isclose(heights[0], -pile.length, rtol=1e-6) or abs(heights[-1]) > 1e-6 * pile.length:
-        allowed = f"heights from {-pile.length:.6g} to 0, as long as the pile"
-        raise InputError(f"{path}, z_soil", heights.tolist(), allowed, "Which pile is it for?")
+        allowed = f"heights from {-pile.length:.6g} to 0, the length of the pile"
+        raise InputError(f"{path}, z_soil", heights.tolist(), allowed, "Give the file's own pile.")
     at = np.linspace(-pile.length, 0.0, _ELEMENTS + 1)
     nodes = np.transpose([np.interp(at, heights, column) for column in springs.T])
     stiffness = np.zeros((6, 6))
@@ -163,8 +163,10 @@ def _lateral(
 
     wanted = np.array([sway, coupling, rocking])
     if sway <= 0 or rocking <= 0 or coupling >= 0 or coupling**2 >= sway * rocking:
-        allowed = "positive definite in each plane, as of something below the mudline"
-        raise InputError(f"stiffness, plane of {plane}", wanted.tolist(), allowed, "Check signs.")
+        allowed = "a matrix at the mudline that is positive definite in each plane"
+        raise InputError(
+            f"stiffness, plane of {plane}", wanted.tolist(), allowed, "Check the signs."
+        )
 
     def springs(logarithms: Array) -> tuple[Array, Array]:
         ratios = np.exp(logarithms)
@@ -184,11 +186,11 @@ def _lateral(
     least = min((one.fun for one in found), key=lambda fun: float(np.max(np.abs(fun))))
     raise InputError(
         f"stiffness, plane of {plane}",
-        f"{wanted.tolist()}, from which the nearest springs found differ by "
+        f"{wanted.tolist()}; the closest springs found differ from it by "
         f"{', '.join(f'{100 * e:.2g} %' for e in least)}",
         "sway, coupling and rocking stiffness that springs at WISDEM's four nodes can give",
-        "Its elements may be too soft in shear for it: leave that out there (shear: False) and here"
-        " (an infinite shear stiffness), or describe a pile of another length.",
+        "Its elements may be too soft in shear: use shear: False in WISDEM and an infinite shear "
+        "stiffness here, or give a pile of another length.",
     )
 
 
@@ -202,11 +204,12 @@ def _foot(vertical: float, pile: WisdemPile) -> float:
 
 
 def _torsional(wanted: float, pile: WisdemPile) -> float:
-    """Torsional spring, the same at each node; the one at the mudline is less than the whole."""
+    """Torsional spring, the same at each node; the total stiffness exceeds the one at the
+    mudline."""
     from scipy.optimize import brentq
 
     if wanted < 0:
-        raise InputError("stiffness, rz", wanted, "not negative", "Check it.")
+        raise InputError("stiffness, rz", wanted, "zero or more", "Check the sign.")
 
     def excess(ratio: float) -> float:
         springs = np.full(_ELEMENTS + 1, ratio * wanted)
@@ -264,8 +267,9 @@ def _left_out(matrix: Array) -> float:
         raise InputError(
             "stiffness",
             f"{matrix[i, j]:.6g} in row {i + 1}, column {j + 1}",
-            "coupling of x with ry and of y with rx alone",
-            "Condense a state with less horizontal load, or set it to zero if it may be left out.",
+            "couplings of x with ry and of y with rx only",
+            "Condense a state with less horizontal load, or set the entry to zero if it is "
+            "negligible.",
         )
     return float(other[i, j])
 
@@ -289,7 +293,7 @@ def _read(path: Path) -> tuple[Array, Array]:
         raise InputError(
             str(path),
             f"z_soil {heights.shape} and k_soil {springs.shape}",
-            f"{_HEIGHTS} rising heights and {_HEIGHTS} by 6 springs that are not negative",
+            f"{_HEIGHTS} rising heights and {_HEIGHTS} by 6 springs of zero or more",
             "Write it with write_wisdem.",
         )
     return heights.astype(float), springs.astype(float)

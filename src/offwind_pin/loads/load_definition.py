@@ -30,10 +30,19 @@ class LoadDefinition(Definition):
 
     @abstractmethod
     def on(self, structure: Structure) -> PointLoad:
-        """The load on a structure.
+        """Create the load on a structure.
+
+        Parameters
+        ----------
+        structure : Structure
+            Turbine, chain and hydrodynamic model, such as a :class:`System`.
+
+        Returns
+        -------
+        PointLoad
 
         Raises
         ------
         InputError
-            The structure is none that it can act on.
+            The load cannot act on the structure.
         """

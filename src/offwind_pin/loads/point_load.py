@@ -1,8 +1,8 @@
 """The contract of loads: motion of points on the axis in, forces and tangents out.
 
-A load also says what it moves with, what acts in the mean, which channels it adds to results, where
-its numbers come from, and a hash of everything that determines its forces. Whatever uses loads asks
-them, and knows no kind of load by itself.
+A load also states what it moves with, its mean, which channels it adds to results, where
+its numbers come from, and a hash of everything that determines its forces. Code that uses loads
+relies on this contract alone and never on the kind of a load.
 
 Everything is in the inertial frame: x downwind, y left looking downwind, z up.
 """
@@ -31,7 +31,7 @@ POSITION, DISPLACEMENT, VELOCITY, AXIS, ACCELERATION, TURN, SPIN = (
 
 BY_POSITION, BY_VELOCITY, BY_ACCELERATION, BY_AXIS = range(4)
 MOMENT_BY_POSITION, MOMENT_BY_TURN, MOMENT_BY_SPIN = range(4, 7)
-"""Places of the derivatives of force and moment in the tangents of a point, (7, 3, 3)."""
+"""Indices of the derivatives of force and moment in the tangents of a point, (7, 3, 3)."""
 
 _MATRIX = types.float64[:, ::1]
 _ROW = types.float64[::1]
@@ -39,10 +39,10 @@ _ROW = types.float64[::1]
 force_kernel = exchangeable(types.float64(_MATRIX, _MATRIX, _ROW, _ROW, _MATRIX))
 """Decorator for ``kernel(motion, constants, time_inputs, memory, force) -> dissipated_power``.
 
-motion (n, 21) of the points; constants (n, c) of the load; time_inputs (w,) whatever depends on
-time; memory (m,) what the load keeps of its past, as of the last step; force (n, 6) is set to force
-and moment in N and N m. Returned is the power in W that the load dissipates, zero for a load that
-does not, or does so from step to step.
+motion (n, 21) of the points; constants (n, c) of the load; time_inputs (w,) everything that depends
+on time; memory (m,) the load's memory as of the last step; force (n, 6) is set to force and moment
+in N and N m. It returns the power in W that the load dissipates, zero for a load that dissipates
+nothing, or does so at the end of steps.
 """
 
 tangent_kernel = exchangeable(types.void(_MATRIX, _MATRIX, _ROW, _ROW, types.float64[:, :, :, ::1]))
@@ -53,25 +53,25 @@ velocity, acceleration and axis, and of the moment by position, turn and spin.
 """
 
 energy_kernel = exchangeable(types.float64(_MATRIX, _MATRIX, _ROW))
-"""Decorator for ``kernel(motion, constants, memory) -> energy``, that the load stores, in J."""
+"""Decorator for ``kernel(motion, constants, memory) -> energy``, the stored energy in J."""
 
 commit_kernel = exchangeable(types.float64(_MATRIX, _MATRIX, _ROW, _ROW))
 """Decorator for ``kernel(motion, constants, time_inputs, memory) -> dissipated_energy``.
 
-It ends a step: the memory becomes that of the motion and of the time inputs at the step's end, and
+It ends a step: the memory is updated to the motion and the time inputs at the end of the step, and
 the energy in J that the step dissipated is returned.
 """
 
 
 @energy_kernel
 def nothing_stored(motion: Array, constants: Array, memory: Array) -> float:
-    """Of a load that stores no energy."""
+    """Energy of a load that stores none."""
     return 0.0
 
 
 @commit_kernel
 def nothing_kept(motion: Array, constants: Array, time_inputs: Array, memory: Array) -> float:
-    """Of a load without memory."""
+    """Commit of a load without memory."""
     return 0.0
 
 
@@ -79,7 +79,7 @@ def nothing_kept(motion: Array, constants: Array, time_inputs: Array, memory: Ar
 def no_tangents(
     motion: Array, constants: Array, time_inputs: Array, memory: Array, blocks: Array
 ) -> None:
-    """Of a load that depends on time alone."""
+    """Tangents of a load that depends on time alone."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,16 +118,26 @@ class PointMotion:
         return PointMotion(**{k: value[part] for k, value in given.items() if value is not None})
 
     def columns(self) -> Array:
-        """(n, 21) all of it side by side, as kernels see it."""
+        """All of the motion side by side, as kernels receive it.
+
+        Returns
+        -------
+        (n, 21) array
+        """
         parts = (getattr(self, item.name) for item in fields(self))
         return np.hstack([np.zeros_like(self.axis) if part is None else part for part in parts])
 
 
 @dataclass(frozen=True, eq=False)
 class PointForces:
-    """Forces (n, 3) in N on the structure at the points, and moments (n, 3) in N m.
+    """Forces and moments on the structure at n points.
 
-    dissipation : power in W that the load dissipates
+    Attributes
+    ----------
+    force : (n, 3) array, N
+    moment : (n, 3) array, N m
+    dissipation : float, W
+        Power that the load dissipates.
     """
 
     force: Array
@@ -139,12 +149,24 @@ class PointForces:
 
 @dataclass(frozen=True, eq=False)
 class PointTangents:
-    """Derivatives (n, 3, 3) of forces and moments, in the order of ``BY_POSITION`` and the others.
+    """Derivatives of the forces and moments at n points, (n, 3, 3) each.
 
-    stiffness : of the force by position in N/m; damping : by velocity in N s/m; inertia : by
-        acceleration in kg; turning : by the axis in N
-    moment_coupling : of the moment by position in N; moment_stiffness : by the turn in N m;
-        moment_damping : by the spin in N m s; none unless given
+    Attributes
+    ----------
+    stiffness : (n, 3, 3) array, N/m
+        Of the force by position.
+    damping : (n, 3, 3) array, N s/m
+        Of the force by velocity.
+    inertia : (n, 3, 3) array, kg
+        Of the force by acceleration.
+    turning : (n, 3, 3) array, N
+        Of the force by the axis.
+    moment_coupling : (n, 3, 3) array or None, N
+        Of the moment by position; zero if None.
+    moment_stiffness : (n, 3, 3) array or None, N m
+        Of the moment by the rotation vector; zero if None.
+    moment_damping : (n, 3, 3) array or None, N m s
+        Of the moment by the angular velocity; zero if None.
     """
 
     stiffness: Array
@@ -159,11 +181,26 @@ class PointTangents:
 
     @staticmethod
     def zeros(n: int) -> PointTangents:
-        """Of a load that depends on time alone."""
+        """Tangents of a load that depends on time alone.
+
+        Parameters
+        ----------
+        n : int
+            Number of points.
+
+        Returns
+        -------
+        PointTangents
+        """
         return PointTangents(*np.zeros((4, n, 3, 3)))
 
     def blocks(self) -> Array:
-        """(n, 7, 3, 3), as kernels see them."""
+        """All derivatives in one array, as kernels write them.
+
+        Returns
+        -------
+        (n, 7, 3, 3) array
+        """
         parts = (getattr(self, item.name) for item in fields(self))
         whole = [np.zeros_like(self.stiffness) if part is None else part for part in parts]
         return np.stack(whole, axis=1)
@@ -172,9 +209,9 @@ class PointTangents:
 class PointLoad(ABC):
     """A load on points of the axis; it knows nothing of joints.
 
-    Base class of the package's loads and of a user's own, which must have a ``name``, ``height``,
-    :meth:`forces` and :meth:`tangents`. The ``ramp_factor`` runs from 0 to 1 at the start of a
-    simulation: at 0 only the mean of a load acts, as in statics and modes.
+    Base class of the package's loads and of your own, which must have a ``name``, ``height``,
+    :meth:`forces` and :meth:`tangents`. The ``ramp_factor`` rises from 0 to 1 at the start of a
+    simulation; at 0 only the mean of a load acts, as in statics and modes.
     """
 
     moves_with_ground: ClassVar[bool] = False
@@ -194,52 +231,103 @@ class PointLoad(ABC):
 
     @abstractmethod
     def forces(self, time: float, motion: PointMotion, ramp_factor: float) -> PointForces:
-        """Forces and moments on the structure."""
+        """Forces and moments on the structure.
+
+        Parameters
+        ----------
+        time : float, s
+        motion : PointMotion
+            Motion of the points.
+        ramp_factor : float
+            From 0, only the mean acts, to 1.
+
+        Returns
+        -------
+        PointForces
+        """
 
     @abstractmethod
     def tangents(self, time: float, motion: PointMotion, ramp_factor: float) -> PointTangents:
-        """Exact derivatives of the forces."""
+        """Exact derivatives of the forces.
+
+        Parameters
+        ----------
+        time : float, s
+        motion : PointMotion
+            Motion of the points.
+        ramp_factor : float
+            From 0, only the mean acts, to 1.
+
+        Returns
+        -------
+        PointTangents
+        """
 
     def compiled(self) -> tuple[KernelLoad, ...]:
-        """The load for compiled code: one part or more, which have its points among them."""
+        """The load for compiled code, in one or more parts that share its points.
+
+        Returns
+        -------
+        tuple of KernelLoad
+        """
         from offwind_pin.loads.python_load import PythonLoad
 
         return (PythonLoad(self),)
 
     @property
     def surrogate(self) -> str | None:
-        """Why its numbers stand in for others, or None."""
+        """Why its numbers replace others, or None."""
         return None
 
     @property
     def channels(self) -> tuple[Channel, ...]:
-        """What :meth:`outputs` gives."""
+        """Channels returned by :meth:`outputs`."""
         return ()
 
     def outputs(self, time: Array, ramp_factor: Array) -> dict[str, Array]:
-        """Values (t, ...) of the channels at times (t,) in s, with ramp factors (t,)."""
+        """Values of the channels.
+
+        Parameters
+        ----------
+        time : (t,) array, s
+        ramp_factor : (t,) array
+
+        Returns
+        -------
+        dict of str to array
+            (t, ...) values by name.
+        """
         return {}
 
     def attributes(self) -> dict[str, str]:
-        """Where the load comes from, for the attributes of the results."""
+        """Attributes of the results that state where the load comes from.
+
+        Returns
+        -------
+        dict of str to str
+        """
         return {}
 
     def fingerprint(self) -> str:
         """Hash of everything that determines the forces.
 
-        A stopped simulation goes on only under loads with the same ones. By default it is that of
-        the source of the class and of the values of its attributes.
+        A stopped simulation continues only with loads of the same fingerprint. By default it covers
+        the source of the class and the values of its attributes.
+
+        Returns
+        -------
+        str
 
         Raises
         ------
         NoFingerprintError
-            An attribute that cannot be hashed; the class must then say what counts.
+            An attribute that cannot be hashed; the class must then define its own fingerprint.
         """
         return content_hash(self)
 
 
 class KernelLoad(PointLoad):
-    """A point load whose physics is in compiled kernels; what depends on time is in time inputs.
+    """A point load with compiled kernels; everything that depends on time is in the time inputs.
 
     One set of kernels serves the time integration, which calls them from compiled code, and
     :meth:`forces` and :meth:`tangents`.
@@ -269,7 +357,7 @@ class KernelLoad(PointLoad):
     @property
     @abstractmethod
     def constants(self) -> Array:
-        """(n, c) numbers of each point that do not change."""
+        """(n, c) constant numbers of each point."""
 
     @property
     def coupling(self) -> tuple[Array, Array] | None:
@@ -282,31 +370,68 @@ class KernelLoad(PointLoad):
 
     @property
     def memory_size(self) -> int:
-        """How many numbers the load keeps of its past; they are zero at first."""
+        """Size of the load's memory, which is zero at first."""
         return 0
 
     @property
     def stores_energy(self) -> bool:
-        """Whether it stores energy, and so does no work of its own."""
+        """Whether it stores energy, and therefore does not count as external work."""
         return self.energy_kernel is not nothing_stored
 
     def time_inputs(self, time: Array, ramp_factor: Array) -> Array:
-        """(t, w) numbers that depend on time alone, at times (t,) with ramp factors (t,)."""
+        """Numbers that depend on time alone.
+
+        Parameters
+        ----------
+        time : (t,) array, s
+        ramp_factor : (t,) array
+
+        Returns
+        -------
+        (t, w) array
+        """
         return np.zeros((len(time), 0))
 
     def mean_inputs(self) -> Array:
-        """(w,) the same of the mean, for statics and modes."""
+        """Time inputs of the mean, for statics and modes.
+
+        Returns
+        -------
+        (w,) array
+        """
         return np.ascontiguousarray(self.time_inputs(np.zeros(1), np.zeros(1))[0])
 
     def compiled(self) -> tuple[KernelLoad, ...]:
+        """The load itself.
+
+        Returns
+        -------
+        tuple of KernelLoad
+        """
         return (self,)
 
     def raise_failure(self) -> None:
-        """Raise what went wrong in a call from compiled code, if anything did."""
+        """Raise the exception of a call from compiled code, if there was one."""
 
     def forces(
         self, time: float, motion: PointMotion, ramp_factor: float, memory: Array | None = None
     ) -> PointForces:
+        """Forces and moments on the structure.
+
+        Parameters
+        ----------
+        time : float, s
+        motion : PointMotion
+            Motion of the points.
+        ramp_factor : float
+            From 0, only the mean acts, to 1.
+        memory : (m,) array, optional
+            Memory of the last step; zero by default.
+
+        Returns
+        -------
+        PointForces
+        """
         columns = motion.columns()
         force = np.zeros((len(columns), 6))
         inputs, past = self._inputs(time, ramp_factor), self._past(memory)
@@ -316,6 +441,22 @@ class KernelLoad(PointLoad):
     def tangents(
         self, time: float, motion: PointMotion, ramp_factor: float, memory: Array | None = None
     ) -> PointTangents:
+        """Exact derivatives of the forces.
+
+        Parameters
+        ----------
+        time : float, s
+        motion : PointMotion
+            Motion of the points.
+        ramp_factor : float
+            From 0, only the mean acts, to 1.
+        memory : (m,) array, optional
+            Memory of the last step; zero by default.
+
+        Returns
+        -------
+        PointTangents
+        """
         columns = motion.columns()
         blocks = np.zeros((len(columns), 7, 3, 3))
         inputs, past = self._inputs(time, ramp_factor), self._past(memory)
@@ -323,13 +464,40 @@ class KernelLoad(PointLoad):
         return PointTangents(*np.ascontiguousarray(blocks.transpose(1, 0, 2, 3)))
 
     def energy(self, motion: PointMotion, memory: Array | None = None) -> float:
-        """Energy stored in J."""
+        """Stored energy.
+
+        Parameters
+        ----------
+        motion : PointMotion
+            Motion of the points.
+        memory : (m,) array, optional
+            Memory of the last step; zero by default.
+
+        Returns
+        -------
+        float, J
+        """
         return float(self.energy_kernel(motion.columns(), self.constants, self._past(memory)))
 
     def commit(
         self, motion: PointMotion, memory: Array, time: float = 0.0, ramp_factor: float = 1.0
     ) -> float:
-        """End a step: the memory (m,) becomes that of a motion; dissipated energy in J."""
+        """End a step: update the memory to a motion.
+
+        Parameters
+        ----------
+        motion : PointMotion
+            Motion at the end of the step.
+        memory : (m,) array
+            Changed in place.
+        time : float, s
+        ramp_factor : float
+
+        Returns
+        -------
+        float, J
+            Energy dissipated in the step.
+        """
         inputs = self._inputs(time, ramp_factor)
         return float(self.commit_kernel(motion.columns(), self.constants, inputs, memory))
 
@@ -342,24 +510,24 @@ class KernelLoad(PointLoad):
 
 
 class GroupedLoad(PointLoad):
-    """A load whose points fall into groups, each with kernels of its own."""
+    """A load whose points form groups, each with its own kernels."""
 
     @property
     @abstractmethod
     def groups(self) -> tuple[tuple[NDArray[np.intp], KernelLoad], ...]:
-        """The points of each group, with their load; each point is in one group."""
+        """Points and load of each group; every point is in one group."""
 
     def compiled(self) -> tuple[KernelLoad, ...]:
         return tuple(load for _, load in self.groups)
 
     @property
     def memory_size(self) -> int:
-        """How many numbers the groups keep of their past, one group after the other."""
+        """Size of the memory, one group after the other."""
         return sum(load.memory_size for load in self.compiled())
 
     @property
     def stores_energy(self) -> bool:
-        """Whether it stores energy, and so does no work of its own."""
+        """Whether it stores energy, and therefore does not count as external work."""
         return all(load.stores_energy for load in self.compiled())
 
     def forces(
@@ -382,11 +550,11 @@ class GroupedLoad(PointLoad):
         return PointTangents(*np.ascontiguousarray(blocks.transpose(1, 0, 2, 3)))
 
     def energy(self, motion: PointMotion, memory: Array | None = None) -> float:
-        """Energy stored in J."""
+        """Stored energy in J."""
         return sum(load.energy(motion[points], past) for points, load, past in self._parts(memory))
 
     def commit(self, motion: PointMotion, memory: Array) -> float:
-        """End a step: change the memory (m,) to that of a motion; dissipated energy in J."""
+        """End a step: update the memory (m,) to a motion; returns the dissipated energy in J."""
         return sum(load.commit(motion[points], past) for points, load, past in self._parts(memory))
 
     def _parts(self, memory: Array | None) -> list[tuple[NDArray[np.intp], KernelLoad, Array]]:
@@ -420,7 +588,7 @@ def dissipated_power(load: KernelLoad, blocks: Array, rate: Array) -> float:
 
 
 def joined_attributes(loads: Sequence[PointLoad]) -> dict[str, str]:
-    """Attributes of all loads together, those of one name joined."""
+    """Attributes of all loads; those of the same name are joined."""
     found: dict[str, list[str]] = {}
     for load in loads:
         for name, value in load.attributes().items():

@@ -1,6 +1,6 @@
 """Point loads written in Python, called from compiled code.
 
-Compiled code cannot have Python objects; it knows a load by its place in a register.
+Compiled code cannot hold Python objects; it refers to a load by its index in a register.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ _places = itertools.count()
 
 
 _PLACE = 0
-"""Column of the constants: place in the register."""
+"""Column of the constants: index in the register."""
 _TIME, _RAMP_FACTOR = range(2)
 """Columns of the time inputs."""
 
@@ -68,8 +68,8 @@ def _tangents(
 class PythonLoad(KernelLoad):
     """A load written in Python, wrapped for compiled code; its energy counts as work.
 
-    An exception in the load is kept, and its forces become NaN, so that the solver stops; whoever
-    called the solver raises it again.
+    An exception in the load is stored and its forces become NaN, so that the solver stops; the
+    caller of the solver raises it again.
     """
 
     inertial = True
@@ -157,7 +157,7 @@ class PythonLoad(KernelLoad):
 
 
 def _motion(columns: Array) -> PointMotion:
-    """A copy, so that no load can change or keep the solver's own arrays."""
+    """A copy, so that no load can change or keep the solver's arrays."""
     columns = columns.copy()
     return PointMotion(
         columns[:, POSITION],

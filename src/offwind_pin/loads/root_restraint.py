@@ -1,4 +1,4 @@
-"""Restraints of the six joints of a root: springs and dashpots, or one of a user's own."""
+"""Restraints of the six root joints: springs and dashpots, or a user's own."""
 
 from __future__ import annotations
 
@@ -23,59 +23,97 @@ restraint_kernel = exchangeable(_TWO_NUMBERS(_ROW, _ROW, _ROW, _ROW, _ROW, _MATR
 """Decorator for ``kernel(displacement, velocity, constants, memory, reaction, stiffness, damping)``
 
 It sets reaction (6,) and its derivatives (6, 6), and returns the power in W that it dissipates and
-the energy in J that it stores. memory (m,) is what the restraint keeps of its past, as of the last
-step.
+the energy in J that it stores. memory (m,) is the restraint's memory as of the last step.
 """
 
 restraint_commit = exchangeable(types.float64(_ROW, _ROW, _ROW))
 """Decorator for ``kernel(displacement, constants, memory) -> dissipated_energy``.
 
-It ends a step: the memory becomes that of the displacement, and the energy in J that the step
+It ends a step: the memory is updated to the displacement, and the energy in J that the step
 dissipated is returned.
 """
 
 
 @restraint_commit
 def nothing_kept_by_root(displacement: Array, constants: Array, memory: Array) -> float:
-    """Of a restraint without memory."""
+    """Commit of a restraint without memory."""
     return 0.0
 
 
 class RootRestraint(ABC):
-    """Resists the six joints of the root: x, y, z in m, rotations about x, y, z in rad.
+    """Restrains the six root joints: x, y, z in m, rotations about x, y, z in rad.
 
-    Base class of the package's restraints and of a user's own.
+    Base class of the package's restraints and of your own.
     """
 
     @abstractmethod
     def reaction(self, displacement: Array, velocity: Array) -> Array:
-        """(6,) generalised force that the restraint takes up, in N and N m."""
+        """Generalised force that the restraint resists with.
+
+        Parameters
+        ----------
+        displacement : (6,) array, m and rad
+            Of the root joints.
+        velocity : (6,) array, m/s and rad/s
+
+        Returns
+        -------
+        (6,) array, N and N m
+        """
 
     @abstractmethod
     def tangents(self, displacement: Array, velocity: Array) -> tuple[Array, Array]:
-        """(6, 6) derivatives of the reaction by displacement and by velocity."""
+        """Derivatives of the reaction.
+
+        Parameters
+        ----------
+        displacement : (6,) array, m and rad
+            Of the root joints.
+        velocity : (6,) array, m/s and rad/s
+
+        Returns
+        -------
+        stiffness : (6, 6) array
+            By displacement.
+        damping : (6, 6) array
+            By velocity.
+        """
 
     @abstractmethod
     def describe(self) -> dict[str, object]:
-        """Plain data for the sidecar."""
+        """Plain data for the sidecar file.
+
+        Returns
+        -------
+        dict of str to object
+        """
 
     def compiled(self) -> KernelRestraint:
-        """The restraint for compiled code."""
+        """The restraint for compiled code.
+
+        Returns
+        -------
+        KernelRestraint
+        """
         return PythonRestraint(self)
 
     def fingerprint(self) -> str:
         """Hash of everything that determines the reaction, see :meth:`PointLoad.fingerprint`.
 
+        Returns
+        -------
+        str
+
         Raises
         ------
         NoFingerprintError
-            An attribute that cannot be hashed; the class must then say what counts.
+            An attribute that cannot be hashed; the class must then define its own fingerprint.
         """
         return content_hash(self)
 
 
 class KernelRestraint(RootRestraint):
-    """A restraint whose physics is in compiled kernels."""
+    """A restraint with compiled kernels."""
 
     if TYPE_CHECKING:
 
@@ -91,14 +129,14 @@ class KernelRestraint(RootRestraint):
     @property
     @abstractmethod
     def constants(self) -> Array:
-        """(c,) numbers that do not change."""
+        """(c,) constants."""
 
     def compiled(self) -> KernelRestraint:
         return self
 
     @property
     def memory_size(self) -> int:
-        """How many numbers the restraint keeps of its past; they are zero at first."""
+        """Size of the restraint's memory, which is zero at first."""
         return 0
 
     def reaction(self, displacement: Array, velocity: Array, memory: Array | None = None) -> Array:
@@ -110,7 +148,8 @@ class KernelRestraint(RootRestraint):
         return self._evaluate(displacement, velocity, memory)[1:]
 
     def commit(self, displacement: Array, memory: Array) -> float:
-        """End a step: change the memory (m,) to that of a displacement; dissipated energy in J."""
+        """End a step: update the memory (m,) to a displacement; returns the dissipated energy in
+        J."""
         return float(self.commit_kernel(displacement, self.constants, memory))
 
     def _evaluate(
@@ -167,7 +206,7 @@ class LinearRestraint(KernelRestraint):
 _register: WeakValueDictionary[int, PythonRestraint] = WeakValueDictionary()
 _places = itertools.count()
 _PLACE = 0
-"""Place in the register among the constants."""
+"""Index of the constant that holds the index in the register."""
 
 
 def _call(
@@ -220,4 +259,4 @@ class PythonRestraint(KernelRestraint):
 
 
 FREE = LinearRestraint(np.zeros((6, 6)), np.zeros((6, 6)))
-"""Resists nothing; stands in where a chain has no root joints."""
+"""No resistance; used where a chain has no root joints."""

@@ -23,19 +23,19 @@ Block = dict[str, Array]
 
 
 class BlockStore(Protocol):
-    """Where the blocks of a run go."""
+    """Storage of the blocks of a run."""
 
     def append(self, block: Block) -> None:
-        """Keep a block."""
+        """Store a block."""
 
     def __iter__(self) -> Iterator[Block]:
-        """The blocks from the first on."""
+        """All blocks in order."""
 
     def __len__(self) -> int:
-        """Number of blocks kept."""
+        """Number of blocks."""
 
     def last(self) -> Block:
-        """The newest block."""
+        """The last block."""
 
 
 class MemoryStore:

@@ -25,7 +25,7 @@ Array = NDArray[np.float64]
 
 HOLDERS = ("kinetic", "gravitational", "elastic", "foundation")
 SINKS = ("joint_dampers", "foundation")
-"""What holds and what takes up energy besides the loads."""
+"""Stores and sinks of energy besides the loads."""
 
 _ENERGIES = ("stored", "dissipated", "worked")
 """Arrays that the energy balance is made of."""
@@ -33,12 +33,12 @@ _ENERGIES = ("stored", "dissipated", "worked")
 
 @dataclass(frozen=True, eq=False)
 class HistoryWriter:
-    """Makes datasets, in memory or in a file, out of the blocks of a time history.
+    """Writes the blocks of a time history as a dataset, in memory or in a file.
 
     Attributes
     ----------
     mudline : float, m
-        Height.
+        Height of the mudline.
     height : (m,) array, m
         Heights of the records.
     segments : sequence of (float, float), m
@@ -46,11 +46,11 @@ class HistoryWriter:
     loads : sequence of str
         Names of the loads.
     stores : (L,) bool array
-        Whether each stores energy rather than works.
+        Whether each stores energy rather than doing work.
     attributes : dict of str to object
-        Of the dataset.
+        Attributes of the dataset.
     constants : mapping of str to (str, array, dict of str to str)
-        What does not change with time, by name: dimension, values, attributes.
+        Constants by name: dimension, values, attributes.
     levels : (D,) array, m
         Heights at which the ground's motion is recorded; none without an earthquake.
     dampers : sequence of str
@@ -107,7 +107,7 @@ class HistoryWriter:
     def write(self, store: BlockStore, status: str, folder: RunFolder | None) -> xr.Dataset:
         """Dataset of all blocks; with a folder it is written to ``results.nc`` and read from there.
 
-        No more than one block is in memory at a time if the dataset goes to a file.
+        With a file, only one block is in memory at a time.
         """
         start = np.sum(next(iter(store))["stored"][0]) if len(store) else 0.0
         if folder is None:
@@ -178,7 +178,7 @@ class HistoryWriter:
 
 
 def versions() -> dict[str, str]:
-    """Versions of the programs that made a result."""
+    """Versions of the programs that produced a result."""
     return {
         "offwind_pin_version": metadata.version("offwind-pin"),
         "pinocchio_version": metadata.version("pin"),

@@ -42,15 +42,15 @@ def static_dataset(
     Parameters
     ----------
     height : (m,) array, m
-    displacement, rotation : (m, 3) array
-        Arrays, m and rad.
+    displacement : (m, 3) array, m
+    rotation : (m, 3) array, rad
     section_load : (m, 6) array, N and N m
     joint_displacement : (nv,) array, m and rad
     memory : (k,) array
         State of soil and foundation.
     mudline : float, m
     engine : str
-        That evaluated the equations.
+        Engine that evaluated the equations.
     loads : sequence of str
         Names of the applied loads.
     """
@@ -107,19 +107,16 @@ def modal_dataset(
     ----------
     height : (m,) array, m
     label : list of str
-        n labels.
+        Labels of the n modes.
     frequency_hz, damping_ratio : (n,) array
-        Arrays, Hz and 1.
     damping_parts : (n, 4) array
-        1; of structure, soil, water and everything else.
+        Contributions of structure, soil, water and everything else.
     damping_asked : (n,) array
-        1; NaN for modes that have no ratio in the turbine file.
+        NaN for modes without a ratio in the turbine file.
     shape, mass_normalised : (n, m, 6) array
-        Arrays.
     participation : (n, f) array
-        1; of f families of joints.
+        Participation of the f families of joints.
     damper_share, peak_height_ratio : (n,) array
-        Arrays, 1.
     vector : (nv, n) array
     engine : str
         That evaluated the equations.

@@ -42,7 +42,7 @@ def make_tree(root: xr.Dataset, groups: Mapping[str, xr.Dataset]) -> xr.DataTree
 
 
 def part(tree: xr.DataTree, name: str) -> xr.Dataset | None:
-    """One part of a tree under its plain dimensions, or None where the tree lacks it.
+    """One part of a tree with plain dimensions, or None if the tree does not have it.
 
     Parameters
     ----------
@@ -55,12 +55,12 @@ def part(tree: xr.DataTree, name: str) -> xr.Dataset | None:
 
 
 def required(tree: xr.DataTree, name: str) -> xr.Dataset:
-    """As :func:`part`, of a part that the tree must have.
+    """As :func:`part`, for a required part.
 
     Raises
     ------
     InputError
-        The tree lacks it.
+        The tree does not have it.
     """
     found = part(tree, name)
     if found is None:

@@ -20,7 +20,7 @@ _FREQUENCY = {"long_name": "frequency", "units": "Hz"}
 
 @dataclass(frozen=True)
 class Band:
-    """Area under a PSD between two frequencies: low, high in Hz, area in (N m)^2."""
+    """Area under a PSD between two frequencies: low and high in Hz, area in (N m)^2."""
 
     low: float
     high: float

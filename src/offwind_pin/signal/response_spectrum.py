@@ -14,7 +14,7 @@ from offwind_pin.base.kernels import kernel
 Array = NDArray[np.float64]
 
 _PER_PERIOD = 100
-"""Instants of a period at which the response is looked at; between them a maximum of a harmonic is
+"""Instants per period at which the response is evaluated; between them the peak of a harmonic is
 missed by 1 - cos(pi / 100) = 0.05 % at most."""
 
 
@@ -55,10 +55,10 @@ def response_spectrum(
 ) -> ResponseSpectrum:
     """Response spectrum of an acceleration that is linear between its samples.
 
-    The oscillator u'' + 2 z w u' + w^2 u = -a, at rest at first, is carried from instant to instant
-    by the exact solution (Nigam and Jennings, Bulletin of the Seismological Society of America 59,
-    1969, pages 909 to 922). Steps are divided so that the largest value is not missed between
-    instants, and the free vibration after the end is followed for a period.
+    The oscillator u'' + 2 z w u' + w^2 u = -a, initially at rest, is advanced from instant to
+    instant by the exact solution (Nigam and Jennings, Bulletin of the Seismological Society of
+    America 59, 1969, pages 909 to 922). Steps are divided so that the largest value is not missed
+    between instants, and the free vibration after the end is followed for one period.
 
     Parameters
     ----------
@@ -172,7 +172,7 @@ def significant_duration(
     """Time in s in which the Arias intensity of samples (t,) grows from a share to another.
 
     After Trifunac and Brady (Bulletin of the Seismological Society of America 65, 1975, pages 581
-    to 626). Zero for a record of nothing.
+    to 626). Zero for a record of zeros.
     """
     whole = _squares(acceleration, dt)
     if whole[-1] == 0:

@@ -56,7 +56,7 @@ def band_sum(frequency: Array, density: Array, low: float, high: float) -> float
     """
     if high > frequency[-1]:
         allowed = f"at most {frequency[-1]:g} Hz, half the sampling frequency"
-        raise InputError("band", f"{high} Hz", allowed, "Sample more often.")
+        raise InputError("band", f"{high} Hz", allowed, "Use a higher sampling rate.")
     inside = frequency[(frequency > low) & (frequency < high)]
     nodes = np.concatenate([[low], inside, [high]])
     return float(np.trapezoid(np.interp(nodes, frequency, density), nodes))
@@ -65,9 +65,9 @@ def band_sum(frequency: Array, density: Array, low: float, high: float) -> float
 def peaks(
     frequency: Array, density: Array, low: float, high: float, prominence_db: float = 3.0
 ) -> list[float]:
-    """Frequencies in Hz of the local maxima that rise above their surroundings, rising.
+    """Frequencies in Hz of the prominent local maxima, in increasing order.
 
-    The prominence is measured on the logarithmic density; each place is refined by the parabola
+    The prominence is measured on the logarithmic density; each frequency is refined by the parabola
     through the maximum and its neighbours.
     """
     from scipy import signal

@@ -11,13 +11,13 @@ from scipy.linalg import eigh
 Array = NDArray[np.float64]
 
 _DENSE = 4
-"""All modes of a system at once where more than one in so many is asked for."""
+"""All modes are computed at once if more than one in this many is requested."""
 _MORE = 4
-"""Modes beyond those asked for, among which a gap is looked for."""
+"""Number of modes beyond the requested ones among which a gap is sought."""
 _ATTEMPTS = 4
 _REFINEMENTS = 50
 _REFINED = 1e-13
-"""Relative change of a solution by which it is good enough."""
+"""Relative change of a solution below which it is accurate enough."""
 
 
 def natural_modes(stiffness: Array, mass: Array, count: int) -> tuple[Array, Array]:
@@ -25,10 +25,10 @@ def natural_modes(stiffness: Array, mass: Array, count: int) -> tuple[Array, Arr
 
     Returns
     -------
-    squares : array, rad^2/s^2
-        (count,) omega^2, rising; negative where the structure is unstable.
-    vectors : array
-        (n, count), phi' M phi = 1.
+    squares : (count,) array, rad^2/s^2
+        omega^2 in increasing order; negative where the structure is unstable.
+    vectors : (n, count) array
+        Modes with phi' M phi = 1.
     """
     symmetric = (stiffness + stiffness.T) / 2
     squares, vectors = eigh(symmetric, mass, subset_by_index=(0, count - 1))
@@ -38,7 +38,7 @@ def natural_modes(stiffness: Array, mass: Array, count: int) -> tuple[Array, Arr
 class Pencil(Protocol):
     """Mass M and stiffness K of n degrees of freedom, by products and solutions.
 
-    K may be slightly unsymmetric, as under forces that follow the motion; modes are those of its
+    K may be slightly unsymmetric, for example under follower forces; modes are those of its
     symmetric part.
     """
 
@@ -58,13 +58,13 @@ class Pencil(Protocol):
 def lowest_modes(pencil: Pencil, size: int, count: int) -> tuple[Array, Array]:
     """The same as :func:`natural_modes`, by Lanczos's method with K inverted.
 
-    A number of modes that the law of inertia contradicts (one of a pair of equal frequency may be
-    missed) is looked for again.
+    The number of modes is checked by Sylvester's law of inertia, and the search repeated if it
+    missed one, such as one of a pair of equal frequency.
 
     Raises
     ------
     LinAlgError
-        K is singular, too far from symmetric, or modes are missed again and again.
+        K is singular or too far from symmetric, or modes are missed repeatedly.
     """
     if _DENSE * count >= size:
         unit = np.eye(size)

@@ -4,9 +4,9 @@ The second-order method of Chung and Hulbert (1993), in the form of Arnold and B
 satisfies the equations of motion exactly at the end of each step and blends an auxiliary
 acceleration instead.
 
-:func:`advance` is plain Python on a :class:`SecondOrderSystem`, and the same text compiled on a
-system of arrays: what it asks of a system goes through the four functions at the end of this page,
-and a compiled system gives its own of them to Numba (``numba.extending.overload``).
+:func:`advance` is plain Python on a :class:`SecondOrderSystem`, and the same source compiled on a
+system of arrays: it uses the system through the four functions at the end of this file, which a
+compiled system overloads (``numba.extending.overload``).
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 
 
 class Equilibrium(Protocol):
-    """Equations of motion in a vector space of configurations, and a matrix to solve them with.
+    """Equations of motion in a vector space of configurations, and their iteration matrix.
 
     row : time inputs, numbers that depend on time alone; the first is the time
     """
@@ -34,17 +34,17 @@ class Equilibrium(Protocol):
     def factorise(
         self, row: Array, q: Array, v: Array, a: Array, dv_dq: float, da_dq: float
     ) -> None:
-        """Make the matrix da_dq dr/da + dv_dq dr/dv + dr/dq; it may be approximate."""
+        """Factorise the matrix da_dq dr/da + dv_dq dr/dv + dr/dq; it may be approximate."""
 
     def correction(self, residual: Array) -> Array:
         """(n,) solution of the iteration matrix for a right side."""
 
 
 class SecondOrderSystem(Equilibrium, Protocol):
-    """Equations of motion with a place for the results."""
+    """Equations of motion that observe the results."""
 
     def observe(self, row: Array, state: Array, iterations: int, size: float) -> None:
-        """Take note of a converged step, whose residual was evaluated last.
+        """Observe a converged step, whose residual was evaluated last.
 
         state : (6, n) with q, v, a first
         """
@@ -57,15 +57,14 @@ class Method(NamedTuple):
     ----------
     step : float, s
     spectral_radius : float
-        At infinite frequency, 1 keeps every frequency and 0 damps the highest at once.
+        At infinite frequency: 1 for no numerical damping, 0 for immediate decay of the highest.
     scale : float
-        Size of the loads that the residual is a balance of.
+        Size of the loads in the residual.
     relative_tolerance, increment_tolerance : float
-        A step has converged when no entry of the residual exceeds the first times the scale, and
-        the correction that it still asks for nowhere the second; the predictor is corrected once at
-        least.
+        A step has converged when no entry of the residual exceeds the first times the scale, and no
+        entry of the remaining correction the second; the predictor is corrected at least once.
     max_iterations : int
-        A step that needs more has failed.
+        A step that requires more has failed.
     slow : float
         Ratio of successive corrections above which the iteration matrix is rebuilt.
     """
@@ -100,16 +99,16 @@ def start(system: Equilibrium, row: Array, q: Array, v: Array) -> Array:
 
 
 _HUGE = 1e12
-"""In 1/s2: beside it the stiffness is rounding in the iteration matrix."""
+"""da_dq in 1/s2, against which the stiffness is rounding error in the iteration matrix."""
 _REFINEMENTS = 4
 
 
 def advance(
     system: SecondOrderSystem, method: Method, state: Array, rows: Array, last: Array
 ) -> tuple[int, int, float]:
-    """Take a step for each row of time inputs, changing the state (6, n).
+    """Take one step per row of time inputs, changing the state (6, n).
 
-    The iteration matrix is rebuilt at the first step, and when corrections shrink too slowly.
+    The iteration matrix is rebuilt at the first step, and when corrections decrease too slowly.
 
     Returns
     -------
@@ -162,7 +161,7 @@ def advance(
     return len(rows), CONVERGED, error
 
 
-# Loops, which compile several times faster than expressions of arrays.
+# Loops compile several times faster than array expressions.
 
 
 @kernel
@@ -177,7 +176,7 @@ def _predict(
     state: Array,
     new: Array,
 ) -> None:
-    """Set q, v, a and the auxiliary acceleration (4, n) that a step begins with.
+    """Set the predictor of q, v, a and the auxiliary acceleration (4, n).
 
     The predictor continues the acceleration of the last three steps.
     """
@@ -213,7 +212,7 @@ def _copy(values: Array, target: Array) -> None:
 
 @kernel
 def _correct(new: Array, change: Array, dv_dq: float, da_dq: float) -> None:
-    """Take a correction of the displacements off q, v and a."""
+    """Subtract a correction of the displacements from q, v and a."""
     for i in range(len(change)):
         new[0, i] -= change[i]
         new[1, i] -= dv_dq * change[i]
@@ -222,7 +221,7 @@ def _correct(new: Array, change: Array, dv_dq: float, da_dq: float) -> None:
 
 @kernel
 def _complete(state: Array, new: Array, ratio: float) -> float:
-    """Make the new values the state (6, n); the largest change of an acceleration."""
+    """Make the new values the state (6, n); returns the largest change of an acceleration."""
     jump = 0.0
     for i in range(state.shape[1]):
         jump = max(jump, abs(new[2, i] - state[2, i]))
@@ -234,7 +233,7 @@ def _complete(state: Array, new: Array, ratio: float) -> float:
 
 
 compiled_advance: Any = kernel(advance)
-"""The same, on a system of arrays."""
+"""The same on a system of arrays."""
 
 
 def residual(system: Equilibrium, row: Array, q: Array, v: Array, a: Array) -> Array:

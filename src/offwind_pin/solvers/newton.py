@@ -13,10 +13,10 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class NewtonResult:
-    """Where Newton's method ended.
+    """Result of Newton's method.
 
-    x : (n,) last iterate; residual : (n,) there; iterations : number of steps taken;
-    increment : largest entry of the last step; converged : whether both measures were met.
+    x : (n,) last iterate; residual : (n,) at x; iterations : number of steps;
+    increment : largest entry of the last step; converged : whether both criteria were met.
     """
 
     x: Array
@@ -39,10 +39,11 @@ def newton(
 ) -> NewtonResult:
     """Solve residual(x) = 0 with the exact tangent, steps limited in size.
 
-    correction : of x and its residual r gives T(x)^-1 r with the tangent T; LinAlgError ends the
-        search
-    scale : size of the terms that the residual is a balance of. Converged means that the residual
-        is below ``relative_tolerance * scale`` and the last step below ``increment_tolerance``.
+    correction : function of x and its residual r that returns T(x)^-1 r with the tangent T;
+    LinAlgError
+        ends the search
+    scale : size of the terms in the residual. Converged means that the residual is below
+        ``relative_tolerance * scale`` and the last step below ``increment_tolerance``.
     largest_step : a longer step is shortened so that no entry exceeds it
     """
     x = start.copy()

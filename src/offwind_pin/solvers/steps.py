@@ -1,4 +1,4 @@
-"""Step policies: into how many equal steps the time between two outputs is divided."""
+"""Step policies: number of equal steps between two outputs."""
 
 from __future__ import annotations
 
@@ -15,30 +15,77 @@ MOST_OUTPUTS = 10_000_000
 
 
 class StepPolicy(Protocol):
-    """Chooses the number of steps of an interval, from how the one before it went."""
+    """Chooses the number of steps of an output interval from the outcome of the previous one."""
 
     def first(self, interval: float) -> int:
-        """Number of steps in the first interval, whose length is given in s."""
+        """Number of steps in the first interval.
+
+        Parameters
+        ----------
+        interval : float, s
+            Output interval.
+
+        Returns
+        -------
+        int
+            Number of steps in the first interval.
+        """
 
     def next(self, steps: int, error: float, interval: float) -> int:
-        """Number of steps after an interval of so many steps with that largest local error.
+        """Number of steps of the next interval.
 
-        More than ``steps`` rejects the interval: it is done again with that many. An infinite
-        error is a step that failed.
+        More than ``steps`` rejects the interval, which is then repeated with that many. An infinite
+        error is a failed step.
+
+        Parameters
+        ----------
+        steps : int
+            Number of steps taken in the last interval.
+        error : float, m or rad
+            Largest local error in it.
+        interval : float, s
+            Output interval.
+
+        Returns
+        -------
+        int
+            Number of steps for the next interval.
         """
 
     def most(self, interval: float) -> int:
-        """Number of steps of an interval beyond which a failure is reported."""
+        """Number of steps of an interval beyond which a failure is reported.
+
+        Parameters
+        ----------
+        interval : float, s
+            Output interval.
+
+        Returns
+        -------
+        int
+            Largest number of steps allowed in an interval.
+        """
 
     def describe(self) -> dict[str, float | str]:
-        """Plain data for the results."""
+        """Plain data for the results.
+
+        Returns
+        -------
+        dict of str to float or str
+            Attributes for the results.
+        """
 
 
 @dataclass(frozen=True)
-class FixedStep:
-    """Steps of one size; where one fails, the interval is done again with halved ones.
+class FixedStep(StepPolicy):
+    """Steps of one size; an interval in which a step fails is repeated with half the step.
 
-    dt in s; halvings : how often steps may be halved before the failure is reported
+    Attributes
+    ----------
+    dt : float, s
+        Step.
+    halvings : int
+        How often the step may be halved before the failure is reported.
     """
 
     dt: float
@@ -65,16 +112,16 @@ class FixedStep:
 
 
 @dataclass(frozen=True)
-class AdaptiveStep:
+class AdaptiveStep(StepPolicy):
     """Steps halved where the local error exceeds a tolerance, doubled where it is far below.
 
     The error of a step is estimated as |beta - 1/6| h^2 max|a_new - a|, the leading term of the
-    displacement that a second-order step leaves out (Zienkiewicz and Xie, 1991).
+    displacement that a second-order step neglects (Zienkiewicz and Xie, 1991).
 
     Attributes
     ----------
-    tolerance : float, m
-        Largest local error of a joint's displacement, or rad.
+    tolerance : float, m or rad
+        Largest local error of a joint's displacement.
     smallest, largest : float, s
         Bounds of the step.
     """
@@ -88,7 +135,7 @@ class AdaptiveStep:
             _check_positive(name, getattr(self, name))
         if self.smallest > self.largest:
             allowed = f"at most the largest, {self.largest} s"
-            raise InputError("smallest", self.smallest, allowed, "Exchange them.")
+            raise InputError("smallest", self.smallest, allowed, "Swap them.")
 
     def first(self, interval: float) -> int:
         _bounded("smallest", self.smallest, interval / self.smallest)

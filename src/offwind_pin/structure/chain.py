@@ -1,7 +1,7 @@
 """The lumped chain: multibody beam elements with three revolute joints each.
 
-An element of length l holds two rigid halves and, at its mid-height, revolute joints about x, y and
-z; one that shears has prismatic joints along x and y below them. Neighbouring elements are rigidly
+An element of length l has two rigid halves and, at mid-height, revolute joints about x, y and z;
+with shear it also has prismatic joints along x and y below them. Neighbouring elements are rigidly
 joined, so body k is the upper half of element k and the lower half of element k + 1; body 0 is the
 lower half of the first element, at the base.
 """
@@ -39,7 +39,7 @@ ELEMENT_LENGTH = {"pile": 3.0, "monopile": 4.0, "tower": 4.0}
 """Longest default element in m by region; any other member is divided like the tower.
 
 Chosen by the convergence study in tests/convergence: the first five frequencies of the benchmark
-lie within 0.1 % of the converged ones.
+are within 0.1 % of the converged ones.
 """
 
 MOST_ELEMENTS = 1000
@@ -65,7 +65,7 @@ class Chain:
     boundary : (N + 1,) array, m
         Heights of the element boundaries.
     region : tuple of str
-        N names of the regions that the elements belong to.
+        Names of the regions of the N elements.
     node_joints : tuple of str
         Joints of a node, see :data:`NODE_JOINTS`.
     joint_name : tuple of str
@@ -73,10 +73,9 @@ class Chain:
     joint_height : (N,) array, m
         Heights of the nodes.
     joint_stiffness : (N, d) array
-        Stiffness of each node's joints, in N m/rad of the revolute and in N/m of the prismatic
-        ones.
+        Stiffness of each node's joints, in N m/rad of the revolute and N/m of the prismatic ones.
     body : tuple of AxialBody
-        N + 1 rigid bodies, heights of their centres counted as z.
+        The N + 1 rigid bodies, with heights of their centres as z.
     rna : RigidBody
         Rotor-nacelle assembly, fixed to the last body; offsets from the yaw bearing.
     tuned_masses : tuple of TunedMass
@@ -117,7 +116,7 @@ class Chain:
 
     @property
     def mass(self) -> float:
-        """Of everything in kg."""
+        """Total mass in kg."""
         sliding = sum(mass.mass for mass in self.tuned_masses)
         return self.rna.mass + sum(body.mass for body in self.body) + sliding
 
@@ -128,7 +127,7 @@ class Chain:
 
     @property
     def cut(self) -> Array:
-        """(N + 2,) heights at which the bodies end: body k lies between cuts k and k + 1."""
+        """(N + 2,) heights at which the bodies end: body k is between cuts k and k + 1."""
         return np.concatenate([[self.base], self.joint_height, [self.top]])
 
     @property
@@ -139,7 +138,7 @@ class Chain:
         return ["base", *("_b".join(name.rsplit("_e", 1)) for name in elements)]
 
     def body_at(self, height: Array) -> NDArrayInt:
-        """Index of the body that carries the axis at each height; at a joint, the body above."""
+        """Index of the body at each height of the axis; at a joint, the body above."""
         return np.searchsorted(self.joint_height, height, side="right")
 
 
@@ -172,20 +171,20 @@ def build_chain(
     base : float, m
         Height of the lowest point: the mudline, or the pile toe.
     free_root : bool
-        Put six joints below the first body, to be held by a foundation.
+        Whether to add six joints below the first body, to be restrained by a foundation.
     elements : int, dict of str to int, or None
-        Total number, number by region (``{"tower": 30}``), or None for the default.
+        Total number, or number by region (``{"tower": 30}``).
     stiffness : {"flexibility", "midpoint"}
-        ``"flexibility"`` takes 1 / integral(dz / EI) over the element; ``"midpoint"`` the paper's
-        EI / l at mid-height (Rahman et al., MECC 2025, Eq. 3).
+        ``"flexibility"`` is 1 / integral(dz / EI) over the element, ``"midpoint"`` the paper's EI /
+        l at mid-height (Rahman et al., MECC 2025, Eq. 3).
     element : {"euler_bernoulli", "timoshenko"}
-        ``"euler_bernoulli"`` is the paper's, of three revolute joints a node; ``"timoshenko"`` has
-        two prismatic joints besides, which shear.
+        ``"euler_bernoulli"`` is the paper's, with three revolute joints per node; ``"timoshenko"``
+        adds two prismatic joints for shear.
 
     Raises
     ------
     InputError
-        An element number that cannot be met, or a region that is not there.
+        An impossible number of elements, or an unknown region.
     """
     for name, value, kinds in (("stiffness", stiffness, Stiffness), ("element", element, Element)):
         if value not in get_args(kinds):
@@ -227,7 +226,7 @@ def build_chain(
 
 
 def _regions(turbine: Turbine, base: float) -> list[tuple[str, float, float]]:
-    """Name, bottom and top of the parts to be divided; the section jumps only between them."""
+    """Name, bottom and top of the parts to divide; the section jumps only between them."""
     mudline = turbine.site.mudline
     spans = []
     for member in turbine.members:
@@ -240,7 +239,7 @@ def _regions(turbine: Turbine, base: float) -> list[tuple[str, float, float]]:
 
 
 def _element_counts(spans: list[tuple[str, float, float]], elements: Elements) -> list[int]:
-    """Number of elements of each span: the default, or shares of what was asked for."""
+    """Number of elements of each span: the default, or a share of the given number."""
     default = [
         int(np.ceil((high - low) / ELEMENT_LENGTH.get(name, ELEMENT_LENGTH["tower"]) - 1e-9))
         for name, low, high in spans
@@ -255,7 +254,7 @@ def _element_counts(spans: list[tuple[str, float, float]], elements: Elements) -
         raise InputError(
             "elements",
             sum(counts),
-            f"{MOST_ELEMENTS} at most",
+            f"at most {MOST_ELEMENTS}",
             "Use fewer elements; are the heights in m?",
         )
     return counts
@@ -264,7 +263,7 @@ def _element_counts(spans: list[tuple[str, float, float]], elements: Elements) -
 def _counts_by_region(
     names: list[str], default: list[int], elements: Mapping[str, int]
 ) -> list[int]:
-    """Counts with the regions that are named set; one region may hold several spans."""
+    """Counts with the given regions set; a region may contain several spans."""
     counts = list(default)
     for name, total in elements.items():
         places = [i for i, region in enumerate(names) if region == name]
@@ -278,9 +277,9 @@ def _counts_by_region(
 
 
 def _share(total: int, weights: list[int], where: str) -> list[int]:
-    """Divide a total in proportion to weights, one at least for each."""
+    """Divide a total in proportion to weights, at least one each."""
     if total < len(weights):
-        allowed = f"at least {len(weights)}, one for each part between jumps of the section"
+        allowed = f"at least {len(weights)}, one per part between jumps of the section"
         raise InputError(where, total, allowed, "Use more elements.")
     shares = np.array(weights) * total / sum(weights)
     counts = np.maximum(1, np.floor(shares).astype(int))
@@ -311,7 +310,7 @@ def _whole_stiffness(turbine: Turbine, low: float, high: float) -> tuple[float, 
 
 
 def _midpoint_stiffness(turbine: Turbine, low: float, high: float) -> tuple[float, float, float]:
-    """The same, of a prism with the section at mid-height."""
+    """The same for a prism with the section at mid-height."""
     middle = np.array([(low + high) / 2])
     member = next(m for bottom, top, m in pieces(turbine, low, high) if bottom <= middle[0] <= top)
     material = turbine.materials[member.material]

@@ -53,7 +53,7 @@ class AxialBody:
 
     @staticmethod
     def combine(parts: list[AxialBody]) -> AxialBody:
-        """One body out of several on the same axis, by the parallel-axis theorem."""
+        """Combine bodies on the same axis by the parallel-axis theorem."""
         mass = sum(part.mass for part in parts)
         if mass == 0:
             return AxialBody(0.0, parts[0].center if parts else 0.0, 0.0, 0.0)

@@ -14,11 +14,11 @@ from offwind_pin.structure.frustum import Frustum
 from offwind_pin.structure.section import frusta
 
 FACETS = 32
-"""Sides of what is round. Normals are smoothed around it, so that few suffice."""
+"""Number of sides of round parts; few suffice, since normals are smoothed around them."""
 
 _DISC = (0.6, 0.2)
 """Radius and thickness of the disc drawn for a tuned mass damper, over the structure's diameter
-there: it shows outside the wall."""
+there; it is visible outside the wall."""
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class Mesh:
 
     @staticmethod
     def combine(parts: Sequence[Mesh]) -> Mesh:
-        """One mesh out of several."""
+        """Combine meshes."""
         starts = np.cumsum([0, *(len(part.vertices) for part in parts[:-1])])
         return Mesh(
             np.concatenate([part.vertices for part in parts]),
@@ -66,7 +66,7 @@ class Mesh:
 
 
 def body_meshes(turbine: Turbine, chain: Chain) -> dict[str, Mesh]:
-    """Hollow frusta of each rigid body of a chain, in its frame, by its name; the base first."""
+    """Hollow frusta of each rigid body of a chain, in its frame, by name from the base upwards."""
     result = {}
     for k, name in enumerate(chain.body_name):
         shells = frusta(turbine, chain.cut[k], chain.cut[k + 1])
@@ -95,7 +95,7 @@ def loft(sections: Array, *, capped: bool = True) -> Mesh:
     sections : (s, n, 3) array
         Points of each loop, anticlockwise seen from the last loop.
     capped : bool
-        Close the first and the last loop with a fan of triangles.
+        Whether to close the first and the last loop with a fan of triangles.
     """
     count, around = sections.shape[:2]
     low = np.arange((count - 1) * around).reshape(count - 1, around)

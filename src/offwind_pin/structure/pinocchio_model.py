@@ -1,4 +1,4 @@
-"""Pinocchio model, read back from the URDF text."""
+"""Pinocchio model, read from the URDF text."""
 
 from __future__ import annotations
 
@@ -28,13 +28,13 @@ def build_model(turbine: Turbine, chain: Chain) -> pin.Model:
 
 
 MOST_JOINTS = 700
-"""Pinocchio's scratch data holds tensors of nv^3 numbers: 11 GB for this many joints."""
+"""Pinocchio's scratch data contains tensors of nv^3 numbers: 11 GB for this many joints."""
 
 
 class Scratch:
-    """Pinocchio's scratch data for one model, one for each thread, made on first use.
+    """Pinocchio's scratch data for one model, one per thread, created on first use.
 
-    Making it is slow and large (Pinocchio sets aside tensors of nv^3 numbers), so it is kept.
+    It is large and slow to create (it contains tensors of nv^3 numbers), so it is kept.
     """
 
     def __init__(self, model: pin.Model) -> None:
@@ -47,8 +47,8 @@ class Scratch:
             raise InputError(
                 "elements",
                 f"{self._model.nv} joints",
-                f"{MOST_JOINTS} joints at most for what Pinocchio computes",
-                "Use fewer elements, or the compiled engine where there is a choice.",
+                f"at most {MOST_JOINTS} joints with Pinocchio",
+                "Use fewer elements, or the compiled engine.",
             )
         if not hasattr(self._local, "data"):
             self._local.data = self._model.createData()

@@ -1,4 +1,4 @@
-"""Rotor-nacelle assembly as meshes: what it weighs is computed elsewhere, here it is only seen."""
+"""Rotor-nacelle assembly as meshes, for display only."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ _SPAN = np.array([0.0, 0.03, 0.08, 0.14, 0.22, 0.35, 0.5, 0.65, 0.8, 0.9, 0.96, 
 _CHORD = np.array([0.05, 0.05, 0.053, 0.061, 0.066, 0.06, 0.05, 0.04, 0.03, 0.023, 0.016, 0.005])
 _THICKNESS = np.array([1.0, 1.0, 0.8, 0.55, 0.42, 0.34, 0.3, 0.27, 0.25, 0.24, 0.24, 0.24])
 _TWIST_DEG = np.array([14.5, 14.5, 14.5, 13, 10.5, 7.5, 4.5, 2.5, 1.0, 0.2, 0.0, 0.0])
-"""What makes a blade look like one: span and chord over length, thickness over chord, twist."""
+"""Typical blade: span and chord over length, thickness over chord, twist."""
 
 
 def rna_meshes(rna: RigidBodyRNA | RotorNacelleRNA, tower_diameter: float) -> dict[str, Mesh]:
     """Meshes by name, in axes whose origin is the yaw bearing, in m.
 
-    Nacelle, hub and blades, one blade pointing up; or, where the definition knows no rotor, a
+    Nacelle, hub and blades with one blade pointing up or, for a definition without a rotor, a
     nacelle about the centre of mass.
 
     Parameters
     ----------
     tower_diameter : float, m
-        Outer diameter at the yaw bearing, which the nacelle's breadth follows.
+        Outer diameter at the yaw bearing, which determines the width of the nacelle.
     """
     breadth = 1.35 * tower_diameter
     if isinstance(rna, RigidBodyRNA):
@@ -95,7 +95,7 @@ def _blade(rna: RotorNacelleRNA, azimuth: float) -> Mesh:
         turn = np.radians(twist)
         width = np.cos(turn) * chordwise + np.sin(turn) * normal
         depth = np.cos(turn) * normal - np.sin(turn) * chordwise
-        # The pitch axis lies ahead of mid-chord where the blade is flat, and at it where round.
+        # The pitch axis is ahead of mid-chord where the blade is flat, and at it where round.
         shift = 0.15 * (1 - thickness)
         loop = (np.cos(angle) / 2 - shift) * width + thickness * np.sin(angle) / 2 * depth
         center = apex + (rna.hub_radius + span * rna.blade.length) * along
@@ -104,7 +104,7 @@ def _blade(rna: RotorNacelleRNA, azimuth: float) -> Mesh:
 
 
 def _rotor_axes(shaft: Array) -> tuple[Array, Array]:
-    """Unit vectors (3,) of the rotor plane: upright, and a quarter turn on about the shaft."""
+    """Unit vectors (3,) of the rotor plane: upright, and rotated by 90 degrees about the shaft."""
     upright = np.array([-shaft[2], 0.0, shaft[0]])
     return upright, np.cross(shaft, upright)
 

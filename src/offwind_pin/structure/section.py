@@ -1,4 +1,4 @@
-"""The support structure over height: what lies between two heights, and its stiffness."""
+"""The support structure over height: dimensions, mass and stiffness of intervals."""
 
 from __future__ import annotations
 

@@ -17,23 +17,23 @@ _JOINTS = {"fore_aft": ("px",), "side_side": ("py",), "both": ("px", "py")}
 
 @dataclass(frozen=True)
 class TunedMass:
-    """Point mass that slides across the axis of the body that carries it.
+    """Point mass that slides across the axis of its carrier.
 
     Attributes
     ----------
     name : str
-        Of the damper.
+        Name of the damper.
     height : float, m
-        Undeformed.
+        Undeformed height.
     body : int
-        Index of the body that carries it.
+        Index of the carrier.
     mass : float, kg
     joints : tuple of str
         ``px``, ``py`` or both, along x and y of the carrier.
     stiffness, damping : float
-        Of each joint's spring in N/m and damper in N s/m.
+        Stiffness of each joint's spring in N/m and coefficient of its damper in N s/m.
     travel : float, m
-        Distance that there is room for, or infinite.
+        Available travel, or infinite.
     """
 
     name: str
@@ -53,7 +53,7 @@ class TunedMass:
 def tuned_masses_of(turbine: Turbine, base: float, joint_height: list[float]) -> list[TunedMass]:
     """Dampers of the structure above a base, in the order of their joints.
 
-    joint_height : heights of the nodes in m; at a node the body above carries
+    joint_height : heights of the nodes in m; at a node the carrier is the body above
     """
     masses = [
         TunedMass(

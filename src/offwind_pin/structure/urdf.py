@@ -1,4 +1,4 @@
-"""URDF of a chain, its meshes, and the sidecar with what URDF cannot say."""
+"""URDF of a chain, its meshes, and a sidecar file with data that URDF cannot contain."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ def write_meshes(turbine: Turbine, chain: Chain) -> dict[str, bytes]:
 def write_sidecar(
     turbine: Turbine, chain: Chain, damping: Array, foundation: dict[str, Any]
 ) -> dict[str, Any]:
-    """What URDF cannot say, as plain data: stiffness, damping, node map, hash of the definition.
+    """Data that URDF cannot contain: stiffness, damping, node map, hash of the definition.
 
     damping is (N, d) like the joint stiffness, in N m s/rad and N s/m.
     """
@@ -129,11 +129,11 @@ def _materials(robot: ET.Element, *, dampers: bool) -> None:
         ET.SubElement(material, "color", rgba=rgba)
 
 
-def _moving_joint(robot: ET.Element, name: str, parent: str, child: str, rise: float) -> None:
-    """Prismatic or revolute joint about the axis that the last letter of its name tells."""
+def _moving_joint(robot: ET.Element, name: str, parent: str, child: str, offset: float) -> None:
+    """Prismatic or revolute joint about the axis named by the last letter of its name."""
     kind = {"p": "prismatic", "r": "revolute"}[name[-2]]
     joint = ET.SubElement(robot, "joint", name=name, type=kind)
-    _origin(joint, [0.0, 0.0, rise])
+    _origin(joint, [0.0, 0.0, offset])
     ET.SubElement(joint, "parent", link=parent)
     ET.SubElement(joint, "child", link=child)
     ET.SubElement(joint, "axis", xyz=_AXIS[name[-1]])
@@ -158,12 +158,12 @@ def _body(robot: ET.Element, chain: Chain, k: int) -> None:
 
 def _tuned_mass(robot: ET.Element, turbine: Turbine, chain: Chain, mass: TunedMass) -> None:
     """Prismatic joints of a tuned mass damper, and a point mass drawn as a disc."""
-    parent, rise = chain.body_name[mass.body], mass.height - chain.origin[mass.body]
+    parent, offset = chain.body_name[mass.body], mass.height - chain.origin[mass.body]
     for joint in mass.joint_names:
         last = joint == mass.joint_names[-1]
         child = f"zz_tmd_{mass.name}_mass" if last else f"{joint}_link"
-        _moving_joint(robot, joint, parent, child, rise)
-        parent, rise = child, 0.0
+        _moving_joint(robot, joint, parent, child, offset)
+        parent, offset = child, 0.0
         link = ET.SubElement(robot, "link", name=child)
     _inertial(link, mass.mass, np.zeros(3), np.zeros((3, 3)))
     visual = ET.SubElement(link, "visual")

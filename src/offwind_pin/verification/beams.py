@@ -1,4 +1,4 @@
-"""Exact and independent answers for Euler-Bernoulli cantilevers."""
+"""Exact and independent solutions for Euler-Bernoulli cantilevers."""
 
 from collections.abc import Callable
 

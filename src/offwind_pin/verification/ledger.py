@@ -1,4 +1,4 @@
-"""The verification ledger: rows, and what was found when they were checked.
+"""The verification ledger: rows, and the outcomes of checking them.
 
 A row names a function of ``verification/checks`` that recomputes the quantity. Tests, the
 ``offwind verify`` command and the page that is rendered read the same rows: a tolerance is written
@@ -28,7 +28,7 @@ Status = Literal["pass", "fail", "not run"]
 
 @dataclass(frozen=True)
 class Found:
-    """What a check computed, and the closed form or second implementation that it is held to."""
+    """Computed value of a check, and the closed form or second implementation as its reference."""
 
     value: float
     reference: float
@@ -42,7 +42,7 @@ class Row(Definition):
     id : str
         Short and unique.
     group : str
-        Heading it stands under.
+        Heading under which it is listed.
     quantity, unit : str
         What is compared.
     check : str
@@ -52,9 +52,9 @@ class Row(Definition):
     source : str
         Where the reference comes from (paper, equation, program).
     tolerance : float
-        Largest distance that passes, of a kind: relative to the reference, or absolute.
+        Largest difference that passes, relative to the reference or absolute (``kind``).
     remark : str or None
-        What a reader must know to judge it.
+        What a reader needs to know to judge it.
     needs : str or None
         A program that must be installed, or None.
     """
@@ -74,7 +74,7 @@ class Row(Definition):
 
     @property
     def command(self) -> str:
-        """What checks this row alone."""
+        """Command that checks this row alone."""
         return f"offwind verify --only {self.id}"
 
     @property
@@ -94,9 +94,9 @@ class Outcome:
     Attributes
     ----------
     value, reference : float or None
-        What was found, and what it is held to; None if not run.
+        Computed value and its reference; None if not run.
     status : {"pass", "fail", "not run"}
-        Whether the distance is within the tolerance.
+        Whether the difference is within the tolerance.
     reason : str or None
         Why it was not run, or how it failed to compute.
     wall : float, s
@@ -112,7 +112,7 @@ class Outcome:
 
     @property
     def distance(self) -> float | None:
-        """Of value and reference, of the row's kind."""
+        """Difference of value and reference, relative or absolute as the row requires."""
         if self.value is None or self.reference is None:
             return None
         return distance(self.value, self.reference, self.row.kind)
@@ -138,7 +138,7 @@ class Outcome:
 
 
 def distance(value: float, reference: float, kind: str) -> float:
-    """How far a value lies off its reference."""
+    """Difference of a value from its reference."""
     off = abs(value - reference)
     return off if kind == "absolute" else off / abs(reference)
 
@@ -156,12 +156,12 @@ def read_ledger() -> tuple[Row, ...]:
 
 
 def choose(pattern: str | None) -> tuple[Row, ...]:
-    """Rows whose id fits a pattern such as ``oc6-*``, or all.
+    """Rows whose id matches a pattern such as ``oc6-*``, or all.
 
     Raises
     ------
     InputError
-        There is none.
+        No row matches.
     """
     rows = read_ledger()
     if pattern is None:
@@ -184,7 +184,7 @@ def check(row: Row) -> Outcome:
     if isinstance(found, Found):
         value, reference = found.value, found.reference
     elif row.reference is None:
-        raise RuntimeError(f"row {row.id} has no reference, and its check gives none")
+        raise RuntimeError(f"row {row.id} has no reference, and its check returns none")
     else:
         value, reference = float(found), row.reference
     near = math.isfinite(value) and distance(value, reference, row.kind) <= row.tolerance
@@ -198,7 +198,7 @@ def _missing(peer: str) -> str | None:
         import_module(peer)
     except ModuleNotFoundError:
         return f"{peer} is not installed"
-    except Exception as error:  # whatever a foreign program raises, such as a missing library
+    except Exception as error:  # anything another program raises, such as a missing library
         return f"{peer} cannot be imported: {error}"
     return None
 
@@ -206,9 +206,9 @@ def _missing(peer: str) -> str | None:
 def verify(
     rows: Sequence[Row], progress: Callable[[int, Row], None] | None = None
 ) -> tuple[Outcome, ...]:
-    """Check rows; one whose check raises fails with the reason, and the others go on.
+    """Check rows; a row whose check raises fails with the reason, and the others continue.
 
-    progress : called before each row with its place
+    progress : called before each row with its index
     """
     outcomes = []
     for place, row in enumerate(rows):

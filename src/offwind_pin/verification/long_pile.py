@@ -1,4 +1,4 @@
-"""A uniform pile in a uniform Winkler bed, and what Hetenyi's theory says of it."""
+"""A uniform pile in a uniform Winkler bed, with Hetenyi's solution."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -11,10 +11,10 @@ from offwind_pin.definitions.turbine import Turbine
 
 @dataclass(frozen=True)
 class LongPile:
-    """A pile so long that its toe does not matter, with a stump of a structure on it.
+    """A pile so long that its toe does not matter, with a short stub of a structure on it.
 
-    length, diameter, thickness in m; modulus of the bed in N/m2. It weighs next to nothing, so that
-    the theory's straight column without axial force is met.
+    Lengths in m, modulus of the bed in N/m2. Its weight is negligible, because the theory assumes
+    no axial force.
     """
 
     length: float = 150.0
@@ -35,7 +35,7 @@ class LongPile:
         return float((self.modulus / (4 * self.bending_stiffness)) ** 0.25)
 
     def deflection(self, depth: Array, force: float, moment: float) -> Array:
-        """y in m under a head force in N and a head moment in N m that push alike.
+        """y in m under a head force in N and a head moment in N m of the same sense.
 
         Hetenyi, Beams on Elastic Foundation (1946), Sec. 10: semi-infinite beam.
         """
@@ -47,7 +47,7 @@ class LongPile:
         return force * by_force + moment * by_moment
 
     def moment(self, depth: Array, force: float, moment: float) -> Array:
-        """Bending moment in N m, positive as the head moment is."""
+        """Bending moment in N m, with the sign of the head moment."""
         a = self.inverse_length
         x = a * depth
         decay = np.exp(-x)

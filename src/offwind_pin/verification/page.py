@@ -12,8 +12,8 @@ from offwind_pin.verification.ledger import Outcome, Row
 _HEAD = """# Verification
 
 Every row is a claim with its reference, tolerance and source. `offwind verify` and the tests check
-all rows; `offwind verify --only ID` checks one. Rows that need another program which is not
-installed are marked as not run. This page is written by `offwind verify --page VERIFICATION.md`.
+all rows; `offwind verify --only ID` checks one. Rows that need a program that is not installed are
+marked as not run. This page is written by `offwind verify --page VERIFICATION.md`.
 """
 _COLUMNS = """| row | quantity | computed | reference | difference | tolerance | status | source |
 | --- | --- | --- | --- | --- | --- | --- | --- |"""

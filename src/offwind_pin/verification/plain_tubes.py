@@ -30,7 +30,7 @@ def tube(
 ) -> Turbine:
     """A tube of one member, its diameter and wall (m) linear in height, mudline at z = -20 m.
 
-    The body on top is a thousandth of a kilogram unless told, 1e-9 of the tube, and a ball of 1 cm.
+    The body on top weighs 1 g by default, 1e-9 of the tube, and is a ball of 1 cm.
     ``model_copy`` does not validate, so that gravity may be zero or huge, which no turbine file can
     ask for.
     """
@@ -72,7 +72,7 @@ def tube(
 
 
 def bending_stiffness(diameter: float = DIAMETER, thickness: float = THICKNESS) -> float:
-    """EI in N m2 of a tube, written out once more."""
+    """EI in N m2 of a tube, by an independent formula."""
     inner = diameter - 2 * thickness
     return YOUNG * np.pi / 64 * (diameter**4 - inner**4)
 
@@ -92,7 +92,7 @@ def polar_inertia(diameter: float = DIAMETER, thickness: float = THICKNESS) -> f
 def equilibrium(
     system: System, top_load: Sequence[float] | Array | None = None, *, scale: float
 ) -> StaticResult:
-    """Static state of a structure whose own load scale vanishes with its top mass or gravity."""
+    """Static state of a structure whose load scale vanishes with its top mass or gravity."""
     loads: list[PointLoad] = []
     if top_load is not None:
         loads = [constant_load(system.chain.top, np.asarray(top_load, dtype=float))]
@@ -130,8 +130,8 @@ FORE_AFT, TORSION = 1, 2
 def frequencies(system: System, count: int, joint: int = FORE_AFT) -> Array:
     """(count,) natural frequencies in rad/s of one family about the straight, upright state.
 
-    Upright, the families are uncoupled; taken one by one, a slender tube's torsion, a thousand
-    times faster, costs its bending no digits.
+    The families are uncoupled in the upright state; solved one by one, a slender tube's torsion, a
+    thousand times faster, does not reduce the accuracy of its bending.
     """
     rest = np.zeros(system.nv)
     equations = system.equations((), ramp_time=None)

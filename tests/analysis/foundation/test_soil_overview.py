@@ -357,7 +357,7 @@ def test_state_of_curves_without_an_end() -> None:
     ones = np.ones(3)
     depth = np.array([0.0, 1.0, 2.0])
     figure = soil_plots.state_over_depth(depth, ones, ones, ones, np.full(3, np.nan))
-    assert any("no end" in text.get_text() for text in figure.axes[2].texts)
+    assert any("no ultimate resistance" in text.get_text() for text in figure.axes[2].texts)
 
 
 def test_state_of_a_run(oc6: ow.Turbine, run: Path, offwind: Any) -> None:

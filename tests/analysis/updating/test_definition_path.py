@@ -40,7 +40,7 @@ def test_numbers_are_read_and_replaced(oc6: ow.Turbine, path: str, value: float)
         ("soil.distributed_springs.curve.initial_modulus.gradiant", "Did you mean 'gradient'"),
         ("members.7.stations.0.z", "allowed: 0, 1"),
         ("materials.stel.density", "Did you mean 'steel'"),
-        ("site.gravity.more", "nothing below 'site.gravity'"),
+        ("site.gravity.more", "'site.gravity' has no further steps"),
         ("soil", "the path of a number"),
         ("name", "the path of a number"),
         ("", "step 1"),
@@ -55,7 +55,7 @@ def test_limits_of_the_definition_hold(oc6: ow.Turbine) -> None:
     """A number is checked where it is, and with all that it must fit."""
     with pytest.raises(ow.InputError, match="greater than or equal to 0"):
         with_number(oc6, GRADIENT, -1.0)
-    with pytest.raises(ow.InputError, match="lies below the pile"):
+    with pytest.raises(ow.InputError, match="is below the pile"):
         with_number(oc6, "site.water_depth", 80.0)
     with pytest.raises(ow.InputError, match="not symmetric"):
         with_number(oc6, "soil.coupled_springs.stiffness.0.4", 0.0)

@@ -107,9 +107,9 @@ FAULTS: dict[str, tuple[dict[str, Any], str, str]] = {
     ),
     "no layers": (layers(), "springs.curve", "no layers"),
     "first layer below": (layers({**SAND, "top_m": 2}), "springs.curve", "top_m = 0"),
-    "layers not rising": (layers(SAND, {**CLAY, "top_m": 0}), "springs.curve", "rise strictly"),
+    "layers not rising": (layers(SAND, {**CLAY, "top_m": 0}), "springs.curve", "increase strictly"),
     "PISA under cycles": (layers(TILL, loading="cyclic"), "springs.curve", "monotonic"),
-    "cycles missing": (layers(STIFF, loading="cyclic"), "springs.curve", "number of cycles"),
+    "cycles missing": (layers(STIFF, loading="cyclic"), "springs.curve", "Give cycles"),
     "cycles of static loading": (layers({**STIFF, "cycles": 10}), "springs.curve", "static"),
     "half a cycle": (layers({**STIFF, "cycles": 0.5}, loading="cyclic"), "cycles", "0.5"),
     "strength in kPa": (
@@ -141,7 +141,7 @@ FAULTS: dict[str, tuple[dict[str, Any], str, str]] = {
     "stiffness out of proportion": (
         layers({**TILL, "shear_modulus_pa": 1.5e9, "undrained_shear_strength_pa": 2e3}),
         "curve.layers.0",
-        "none of a clay",
+        "outside the range of clay",
     ),
     "weight in kN": (
         layers({**SAND, "submerged_unit_weight_n_per_m3": 10}),
@@ -151,12 +151,12 @@ FAULTS: dict[str, tuple[dict[str, Any], str, str]] = {
     "total weight": (
         layers({**SAND, "submerged_unit_weight_n_per_m3": 20e3}),
         "submerged_unit_weight_n_per_m3",
-        "total one",
+        "total unit weight",
     ),
     "angle in radians": (layers({**SAND, "friction_angle_deg": 0.6}), "friction_angle", "radians"),
     "angle too steep": (layers({**SAND, "friction_angle_deg": 55}), "friction_angle_deg", "55"),
     "strain in percent": (layers({**CLAY, "strain_50": 0.5}), "strain_50", "percent"),
-    "strain of nothing": (layers({**CLAY, "strain_50": 1e-5}), "strain_50", "below any clay"),
+    "strain of nothing": (layers({**CLAY, "strain_50": 1e-5}), "strain_50", "too small for clay"),
     "J out of range": (layers({**CLAY, "j": 0.9}), "layers.0.j", "0.9"),
     "density in percent": (layers({**DUNKIRK, "relative_density": 75}), "density", "percent"),
     "modulus in MN": (
@@ -164,7 +164,7 @@ FAULTS: dict[str, tuple[dict[str, Any], str, str]] = {
         "initial_modulus_n_per_m3",
         "unit",
     ),
-    "clay of sand": (layers({**DUNKIRK, "calibration": "cowden_till"}), "layers.0", "takes"),
+    "clay of sand": (layers({**DUNKIRK, "calibration": "cowden_till"}), "layers.0", "requires"),
     "sand of clay": (
         layers({**TILL, "calibration": "general_dunkirk_sand"}),
         "layers.0",
@@ -173,7 +173,7 @@ FAULTS: dict[str, tuple[dict[str, Any], str, str]] = {
     "no calibration": (
         layers({key: value for key, value in TILL.items() if key != "calibration"}),
         "layers.0",
-        "either calibration or parameters",
+        "one of calibration and parameters",
     ),
     "unnamed ratio": (
         layers(
@@ -193,17 +193,17 @@ FAULTS: dict[str, tuple[dict[str, Any], str, str]] = {
             }
         ),
         "parameters.lateral.initial_stiffness",
-        "not named",
+        "not given",
     ),
     "profile of unequal lengths": (
         layers({**CLAY, "undrained_shear_strength_pa": {"depth_m": [0, 5], "values": [2e4]}}),
         "undrained_shear_strength_pa",
-        "one value for each depth",
+        "one value per depth",
     ),
     "profile not rising": (
         layers({**CLAY, "undrained_shear_strength_pa": {"depth_m": [5, 5], "values": [2e4, 3e4]}}),
         "undrained_shear_strength_pa",
-        "rise strictly",
+        "increase strictly",
     ),
     "profile of zeros": (
         layers({**CLAY, "undrained_shear_strength_pa": {"depth_m": [5], "values": [0]}}),
@@ -223,7 +223,7 @@ FAULTS: dict[str, tuple[dict[str, Any], str, str]] = {
     "boundaries not rising": (
         {"kind": "table", "file": "a.csv", "boundaries_m": [5, 3]},
         "springs.curve",
-        "rise strictly",
+        "increase strictly",
     ),
 }
 
@@ -245,24 +245,27 @@ SHAFT = {"kind": "api", "soil": "sand", "skin_friction_pa": 5e4}
 SPRING_FAULTS: dict[str, tuple[dict[str, Any], str]] = {
     "nothing vertical": (
         {"toe_vertical_stiffness_n_per_m": None},
-        "nothing holds the pile vertically",
+        "nothing restrains the pile vertically",
     ),
-    "zero vertical": ({"toe_vertical_stiffness_n_per_m": 0}, "nothing holds the pile vertically"),
+    "zero vertical": (
+        {"toe_vertical_stiffness_n_per_m": 0},
+        "nothing restrains the pile vertically",
+    ),
     "nothing torsional": (
         {"toe_torsional_stiffness_nm_per_rad": None, "vertical": SHAFT},
-        "nothing holds the pile in torsion",
+        "nothing restrains the pile in torsion",
     ),
     "loss counted twice": ({"hysteretic": {"sliders": 20}, "dashpot": DASHPOT}, "count the same"),
     "few sliders": ({"hysteretic": {"sliders": 3}}, "greater than or equal to 4"),
     "many sliders": ({"hysteretic": {"sliders": 201}}, "less than or equal to 200"),
-    "residual of sand": ({"vertical": {**SHAFT, "residual_ratio": 0.8}}, "sand has none"),
-    "no residual of clay": ({"torsional": {**SHAFT, "soil": "clay"}}, "Clay needs it"),
+    "residual of sand": ({"vertical": {**SHAFT, "residual_ratio": 0.8}}, "leave it out for sand"),
+    "no residual of clay": ({"torsional": {**SHAFT, "soil": "clay"}}, "Give it for clay"),
     "friction in kPa": ({"vertical": {**SHAFT, "skin_friction_pa": 60}}, "looks like kPa"),
     "gradient of friction in kPa": (
         {"torsional": {**SHAFT, "skin_friction_pa": {"gradient": 2.5}}},
         "looks like kPa",
     ),
-    "friction of steel": ({"vertical": {**SHAFT, "skin_friction_pa": 6e7}}, "beyond any ground's"),
+    "friction of steel": ({"vertical": {**SHAFT, "skin_friction_pa": 6e7}}, "too large for soil"),
     "bearing in kPa": ({"toe_bearing": {"kind": "api", "end_bearing_pa": 12e3}}, "15000"),
     "constant dashpot that varies": (
         {
@@ -281,11 +284,11 @@ SPRING_FAULTS: dict[str, tuple[dict[str, Any], str]] = {
                 "damping_factor": {"displacement_m": [1e-3, 1], "factor": [0, 1, 1]},
             }
         },
-        "one factor for each",
+        "one factor per",
     ),
     "damping not rising": (
         {"dashpot": {**DASHPOT, "damping_factor": {"displacement_m": [1, 0.1], "factor": [0, 1]}}},
-        "rise strictly",
+        "increase strictly",
     ),
     "damping in percent": (
         {"dashpot": {**DASHPOT, "damping_factor": 5}},

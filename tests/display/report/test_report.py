@@ -421,12 +421,12 @@ class TestWording:
         [
             (0.2744, 0.28, "Hz", "2.0 % below"),
             (1.46, 1.44, "Hz", "1.4 % above"),
-            (0.28, 0.28, "Hz", "the same within 0.05 %"),
+            (0.28, 0.28, "Hz", "equal within 0.05 %"),
             (-1.1, -1.0, "m", "10.0 % below"),
             (11.42, 14.3, "%", "20.1 % below (2.9 percentage points)"),
             (1296.0, 100.0, "", "13.0 times the published value"),
             (10.0, 100.0, "", "0.100 times the published value"),
-            (0.5, 0.0, "m", "0.500 m apart"),
+            (0.5, 0.0, "m", "difference 0.500 m"),
         ],
     )
     def test_differences(self, ours: float, reference: float, unit: str, text: str) -> None:

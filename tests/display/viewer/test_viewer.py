@@ -245,7 +245,7 @@ class TestView:
 
     def test_a_state_does_not_move(self, coupled_wet: ow.System) -> None:
         state = static_dataset(coupled_wet, ow.static(coupled_wet))
-        with pytest.raises(ow.InputError, match="Nothing moves"):
+        with pytest.raises(ow.InputError, match="can be animated"):
             View(state)
 
     def test_curves_have_all_outputs(self, history: xr.Dataset) -> None:
@@ -268,7 +268,7 @@ class TestView:
         assert "bending moment" in older
 
     def test_loads_that_the_channel_does_not_hold_are_told(self, history: xr.Dataset) -> None:
-        note = "prescribed loads; a rotor's thrust is not among them"
+        note = "prescribed loads, which exclude the thrust of the rotor"
         told = history.assign_attrs(tower_top_load_holds=note)
         assert note in unescape(View(told, 4.0, 4.0).page())
         without = told.assign(tower_top_load=0 * told.tower_top_load)

@@ -73,7 +73,7 @@ def test_subdyn_reads_what_a_person_wrote(tmp_path: Path) -> None:
         ("1e9 Kxx\n2e9 Kxx\n", "Kxx once"),
         ("much Kxx\n", "finite number"),
         ("nan Kxx\n", "finite number"),
-        ("1e9\n", "Name it"),
+        ("1e9\n", "Complete the line"),
     ],
 )
 def test_subdyn_faults(tmp_path: Path, text: str, fault: str) -> None:

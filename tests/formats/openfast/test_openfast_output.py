@@ -135,8 +135,8 @@ def test_truncated_anywhere(tmp_path: Path, kind: int) -> None:
         (6, struct.pack("<i", -5), "number of time steps"),
         (6, struct.pack("<i", 1), "number of time steps"),
         (10, struct.pack("<d", float("nan")), "time"),
-        (18, struct.pack("<d", -0.1), "step of the time"),
-        (18, struct.pack("<d", 0.0), "step of the time"),
+        (18, struct.pack("<d", -0.1), "time step"),
+        (18, struct.pack("<d", 0.0), "time step"),
         (26, struct.pack("<f", 0.0), "YawBrFxp.*slope"),
         (26, struct.pack("<f", float("inf")), "YawBrFxp.*slope"),
         (50, struct.pack("<f", float("nan")), "YawBrFxp.*offset"),
@@ -402,8 +402,8 @@ def test_resampling_is_told() -> None:
     notes, cautions = resampling_notes(sampled(0.05), 0.02)
     assert len(notes) == 1
     assert cautions == []
-    assert "flattens" in resampling_notes(sampled(0.5), 0.02)[1][0]
-    assert "sampled as something slower" in resampling_notes(sampled(0.005), 0.02)[1][0]
+    assert "attenuates" in resampling_notes(sampled(0.5), 0.02)[1][0]
+    assert "aliased" in resampling_notes(sampled(0.005), 0.02)[1][0]
 
 
 @pytest.mark.parametrize("kind", [1, 2, 3, 4])

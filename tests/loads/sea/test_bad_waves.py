@@ -56,7 +56,7 @@ FAULTS: dict[str, tuple[dict[str, Any], list[str]]] = {
     ),
     "height beside a spectrum": (
         spectrum(kind="tma", significant_height_m=2.0, peak_period_s=8.0) | {"peak_shape": 3.3},
-        ["Put peak_shape into it"],
+        ["inside spectrum"],
     ),
     "unknown spectrum": (spectrum(kind="ochi_hubble"), ["jonswap", "tma", "white_noise", "table"]),
     "misspelt key": (
@@ -74,18 +74,18 @@ FAULTS: dict[str, tuple[dict[str, Any], list[str]]] = {
     ),
     "noise without width": (
         spectrum(kind="white_noise", significant_height_m=2.0, lowest_hz=0.1, highest_hz=0.104),
-        ["3 components", "10 or more"],
+        ["3 components", "at least 10 are required"],
     ),
     "density below zero": (table([0.1, 0.2, 0.3], [1, -1, 1]), ["density at 0.2 Hz", "-1.0"]),
     "unsorted table": (table([0.1, 0.3, 0.2], [1, 1, 1]), ["Sort the table"]),
-    "gap in the table": (table([0.1, 0.11, 0.12, 0.3], [1, 1, 1, 1]), ["rows missing"]),
+    "gap in the table": (table([0.1, 0.11, 0.12, 0.3], [1, 1, 1, 1]), ["missing rows"]),
     "word in the table": (table([0.1, 0.2, 0.3], [1, "x", 1]), ["density_m2_per_hz", "x"]),
     "not a number in the table": (
         table([0.1, 0.2, 0.3], [1, float("nan"), 1]),
         ["density_m2_per_hz"],
     ),
     "unequal columns": (table([0.1, 0.2, 0.3], [1, 1]), ["3 frequencies and 2 densities"]),
-    "empty table": (spectrum(kind="table"), ["either file, or frequency_hz"]),
+    "empty table": (spectrum(kind="table"), ["both given, or neither", "frequency_hz"]),
     "table file that is not there": (spectrum(kind="table", file="none.csv"), ["none.csv"]),
     "table file with another header": (spectrum(kind="table", file="buoy.csv"), ["frequency_hz"]),
     "unknown amplitudes": (WAVES | {"amplitudes": "rayleigh"}, ["amplitudes", "random"]),
@@ -100,7 +100,7 @@ FAULTS: dict[str, tuple[dict[str, Any], list[str]]] = {
     "doppler without current": (WAVES | {"doppler": True}, ["doppler", "current"]),
     "waves that are blocked": (
         WAVES | {"doppler": True, "current": AGAINST},
-        ["blocks", "check the current"],
+        ["blocks", "Check the current"],
     ),
     "a regular wave that is blocked": (
         REGULAR | {"period_s": 4.0, "doppler": True, "current": AGAINST},

@@ -85,7 +85,7 @@ def test_cuts_take_away_what_they_say() -> None:
     )
     told = sea.cautions(sea.waves(DEPTH, GRAVITY))
     share = (0.5**2 + 0.2**2) / 2 / np.var(wanted + swell + ripple)
-    assert any(f"leave out {100 * share:.2g} %" in text for text in told)
+    assert any(f"remove {100 * share:.2g} %" in text for text in told)
 
 
 def test_mean_and_trend_are_told() -> None:
@@ -95,7 +95,7 @@ def test_mean_and_trend_are_told() -> None:
     assert "mean of 1 m" in notes
     assert "trend of 0.6" in notes
     assert "first time, 5 s, is time 0" in notes
-    assert "fade over 6 s" in notes
+    assert "tapered over 6 s" in notes
 
 
 @pytest.mark.parametrize("between", [",", " ", "\t", " ; "])
@@ -120,7 +120,7 @@ def test_uneven_times_are_interpolated_and_told(tmp_path: Path) -> None:
     assert record.resampled
     assert_allclose(record.elevation[1:-1], surface()[1 : len(record.elevation) - 1], atol=0.05)
     sea = ow.MeasuredWaves(record, 0.03, 1.0)
-    assert any("not evenly spaced" in text for text in sea.cautions(sea.waves(DEPTH, GRAVITY)))
+    assert any("not evenly sampled" in text for text in sea.cautions(sea.waves(DEPTH, GRAVITY)))
     rounded = ow.SurfaceRecord.of(np.round(TIME * 1.28, 2) + 0, surface(), "here")
     assert not rounded.resampled
 
@@ -154,7 +154,7 @@ FILE_FAULTS: dict[str, tuple[str, str]] = {
         "missing values",
     ),
     "in centimetres": ("\n".join(f"{i},{100 * (i % 3)}" for i in range(80)), "Is the unit m?"),
-    "still": ("\n".join(f"{i},0.3" for i in range(80)), "moves"),
+    "still": ("\n".join(f"{i},0.3" for i in range(80)), "varies"),
 }
 
 

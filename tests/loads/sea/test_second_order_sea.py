@@ -52,7 +52,7 @@ def test_case_file() -> None:
     with pytest.raises(ValidationError, match="1 or 2"):
         adapter.validate_python({**keys, "order": 3})
     current = {"kind": "uniform", "speed_m_per_s": 1.0}
-    with pytest.raises(ValidationError, match="exclude each other"):
+    with pytest.raises(ValidationError, match="cannot be combined"):
         adapter.validate_python({**keys, "order": 2, "doppler": True, "current": current})
 
 
@@ -70,7 +70,7 @@ def test_facts_and_cautions(oc6: ow.Turbine) -> None:
     assert second["significant_height_m"] == pytest.approx(linear["significant_height_m"], rel=0.02)
     long = ow.RegularWaves(8.0, 16.0, order=2)
     told = wave_facts(ow.build(oc6, "coupled_springs", long))["cautions"]
-    assert "crests in its troughs" in told[0]
+    assert "secondary crests in the troughs" in told[0]
     milder = ow.RegularWaves(3.0, 8.0, order=2)
     assert wave_facts(ow.build(oc6, "coupled_springs", milder))["cautions"] == []
 

@@ -164,7 +164,9 @@ def test_cautions_name_what_is_outside() -> None:
         assert text in deep
     assert "L/D" not in deep
     assert "matlock" not in told(layered(), nodes([1.0], length=14.0))
-    assert "L/D from 2 to 6; this pile has 1.43" in told(layered(), nodes([20.0], length=10.0))
+    assert "L/D from 2 to 6; this pile has L/D = 1.43" in told(
+        layered(), nodes([20.0], length=10.0)
+    )
     slender = nodes([1.0, 8.0], diameter=1.8, length=10.0)
     assert told(layered(LAYERS[:2]), slender) == ""
 

@@ -39,14 +39,14 @@ LOAD_FAULTS: dict[str, tuple[dict[str, Any], list[str]]] = {
         {"kind": "openfast", "file": "run.outb"},
         ["synthetic, file, openfast_output"],
     ),
-    "no file": ({"kind": "file"}, ["either file, or a list of files"]),
+    "no file": ({"kind": "file"}, ["both given, or neither"]),
     "file and files": (
         OPENFAST | {"files": [{"file": "run.outb"}]},
-        ["either file, or a list of files"],
+        ["both given, or neither"],
     ),
     "factor beside files": (
         {"kind": "file", "factor": 2.0, "files": [{"file": "run.outb"}]},
-        ["factor to each of them"],
+        ["factor in each entry"],
     ),
     "missing file": (OPENFAST | {"file": "none.outb"}, ["none.outb", "no such file"]),
     "not binary": (OPENFAST | {"file": "words.outb"}, ["words.outb", "FileID"]),
@@ -138,17 +138,17 @@ ROTOR_FAULTS: dict[str, tuple[dict[str, Any], Change, list[str]]] = {
     "falling wind speeds": (
         SHIPPED,
         table("wind_speed_m_per_s", list(range(25, 5, -1))),
-        ["rise strictly"],
+        ["increase strictly"],
     ),
     "rated off the table": (
         SHIPPED,
         lambda rotor: rotor.update(rated_wind_speed_m_per_s=40.0),
-        ["rated_wind_speed_m_per_s", "Lengthen"],
+        ["rated_wind_speed_m_per_s", "Extend"],
     ),
     "geometry twice": (
         SHIPPED,
         lambda rotor: rotor.update(overhang_m=-5.0),
-        ["overhang", "rna gives already"],
+        ["overhang", "repeats overhang of rna"],
     ),
     "air in g/m3": (
         SHIPPED,

@@ -37,7 +37,7 @@ FAULTS: dict[str, tuple[Callable[[], object], list[str]]] = {
         ),
         ["hub_speed", "56"],
     ),
-    "times that stop": (lambda: ow.WindSeries([0.0, 0.0], [0.0, 0.0]), ["rise", "Sort"]),
+    "times that stop": (lambda: ow.WindSeries([0.0, 0.0], [0.0, 0.0]), ["increase", "Sort"]),
     "unequal series": (lambda: ow.WindSeries(np.arange(2), np.zeros(3)), ["2 times", "3"]),
     "series that is no number": (
         lambda: ow.WindSeries([0.0, 1.0], [0.0, np.nan]),

@@ -254,7 +254,7 @@ def test_inflow_time(disc: RotorDisc) -> None:
 
 def test_what_cannot_run_is_refused(oc6: ow.Turbine, disc: RotorDisc) -> None:
     """A wind off the table, a mode that is none, a time that is none, a turbine without a rotor."""
-    with pytest.raises(ow.InputError, match="the rotor runs"):
+    with pytest.raises(ow.InputError, match="the rotor operates"):
         RotorThrust(disc, constant_wind(30.0))
     with pytest.raises(ow.InputError, match="lagged or instant"):
         RotorThrust(disc, constant_wind(9.0), "fast")  # type: ignore[arg-type]

@@ -1,4 +1,4 @@
-"""Static condensation of pile and soil to a 6x6 stiffness at the mudline, in a loaded state."""
+"""Static condensation of pile and soil to a 6x6 stiffness at the mudline, about a loaded state."""
 
 from __future__ import annotations
 
@@ -32,12 +32,12 @@ from offwind_pin.loads.tower_top.load_history import constant_load
 CondensedStiffness = Literal["tangent", "secant"]
 
 _OUT_OF_BALANCE = 1e-6
-"""Residual of the pile over the load scale above which a state is not one of the system."""
+"""Residual of the pile over the load scale above which a state does not belong to the system."""
 
 
 @dataclass(frozen=True, eq=False)
 class Condensation:
-    """What pile and soil are to the structure above the mudline.
+    """Pile and soil condensed to the mudline.
 
     Order x, y, z, rx, ry, rz; N, m, rad. Forces and moments act at the axis at the mudline and keep
     their directions.
@@ -45,16 +45,16 @@ class Condensation:
     Attributes
     ----------
     kind : {"tangent", "secant"}
-        ``"tangent"`` or ``"secant"``.
+        Kind of stiffness.
     height : float, m
-        Of the mudline.
+        Height of the mudline.
     stiffness : (6, 6) array
-        As computed.
+        Stiffness as computed.
     load : (6,) array, N and N m
-        That the structure above exerts in the state.
+        Load of the structure above in the state.
     displacement : (6,) array, m and rad
-        Of the axis there, from where the pile's own weight leaves it; the secant stiffness times it
-        is the load, but for products of displacements.
+        Displacement of the axis at the mudline relative to the pile under its own weight. The
+        secant stiffness times it is the load, up to products of displacements.
     """
 
     kind: CondensedStiffness
@@ -67,22 +67,31 @@ class Condensation:
 
     @property
     def symmetric(self) -> Array:
-        """(6, 6) the symmetric part of the stiffness, which linear foundations ask for."""
+        """(6, 6) symmetric part of the stiffness, as required by linear foundations."""
         return (self.stiffness + self.stiffness.T) / 2
 
     @property
     def symmetry_defect(self) -> float:
         """Largest K_ij - K_ji over the root of K_ii K_jj.
 
-        Zero without load. A moment that keeps its direction while the axis turns does not derive
-        from a potential, so that the defect grows with the moments over the rotational stiffness.
+        Zero without load. A moment of constant direction on a rotating axis has no potential, so
+        the defect grows with the moments over the rotational stiffness.
         """
         size = np.sqrt(np.abs(np.diag(self.stiffness)))
         difference = self.stiffness - self.stiffness.T
         return float(np.max(np.abs(difference) / np.outer(size, size)))
 
     def replacing_soil(self, turbine: Turbine) -> Turbine:
-        """A turbine with the symmetric part as its soil's ``coupled_springs``."""
+        """A turbine with the symmetric part as its soil's ``coupled_springs``.
+
+        Parameters
+        ----------
+        turbine : Turbine
+
+        Returns
+        -------
+        Turbine
+        """
         source = f"{self.kind} stiffness of distributed springs, condensed to the mudline"
         springs = {"stiffness": self.symmetric.tolist(), "source": source}
         soil = turbine.soil.model_validate({**dict(turbine.soil), "coupled_springs": springs})
@@ -104,9 +113,13 @@ def condense(
     about : StaticResult
         A static state of it.
     stiffness : {"tangent", "secant"}
-        ``"tangent"`` for small motions about the state, as modes and time histories make them;
+        ``"tangent"`` for small motions about the state, as in modes and time histories;
         ``"secant"`` with each soil spring replaced by a linear one of force over displacement in
         the state, which takes the unloaded pile to that state in one step.
+
+    Returns
+    -------
+    Condensation
 
     Raises
     ------
@@ -119,7 +132,10 @@ def condense(
     if about.q.shape != (system.nv,):
         allowed = f"a static state of this system, with {system.nv} degrees of freedom"
         raise InputError(
-            "about", f"one with {len(about.q)}", allowed, "Solve the static state again."
+            "about",
+            f"a state with {len(about.q)} degrees of freedom",
+            allowed,
+            "Solve the static state again.",
         )
     pile = pile_part(system)
     q, rest = about.q[: pile.nv], np.zeros(pile.nv)
@@ -129,12 +145,15 @@ def condense(
     acting = [constant_load(pile.chain.top, load)]
     chain = CompiledChain(pile, acting)
     chain.memory = about.memory
-    lack = float(np.max(np.abs(chain.residual(chain.mean_inputs(), q, rest, rest))))
-    lack /= load_scale(system)
-    if lack > _OUT_OF_BALANCE:
+    residual = float(np.max(np.abs(chain.residual(chain.mean_inputs(), q, rest, rest))))
+    residual /= load_scale(system)
+    if residual > _OUT_OF_BALANCE:
         allowed = "a static state of this system, in balance"
         raise InputError(
-            "about", f"{lack:.2g} of the loads", allowed, "Solve the static state again."
+            "about",
+            f"a residual of {residual:.2g} of the loads",
+            allowed,
+            "Solve the static state again.",
         )
     if stiffness == "secant":
         soil = tuple(
@@ -157,16 +176,16 @@ def condense(
 
 @dataclass(frozen=True, eq=False)
 class SecantSprings(PointLoad):
-    """Linear springs in place of nonlinear ones, with the same forces and moments in one state.
+    """Linear springs that replace nonlinear ones, with the same forces and moments in one state.
 
     Attributes
     ----------
     height : (n,) array, m
-        Of the nodes.
+        Heights of the nodes.
     stiffness : (n, 3) array, N/m
-        Along x, y and z.
+        Stiffness along x, y and z.
     rotational : (n, 3) array, N m/rad
-        About x, y and z.
+        Stiffness about x, y and z.
     """
 
     height: Array
@@ -178,7 +197,7 @@ class SecantSprings(PointLoad):
 
     @staticmethod
     def of(springs: KernelLoad, motion: PointMotion, past: Array) -> SecantSprings:
-        """Secants of springs in a state, across and along the pile; tangents at rest."""
+        """Secants of springs in a state, across and along the pile; tangents where undeflected."""
         forces = springs.forces(0.0, motion, 0.0, past)
         blocks = springs.tangents(0.0, motion, 0.0, past).blocks()
         turn = np.zeros_like(motion.axis) if motion.turn is None else motion.turn
@@ -201,7 +220,7 @@ class SecantSprings(PointLoad):
 
 
 def _secants(pull: Array, moved: Array, tangents: Array) -> Array:
-    """(n, 3) pull over deflection, both (n, 3), horizontal parts together."""
+    """(n, 3) force over deflection, both (n, 3), horizontal parts together."""
     result = -np.diagonal(tangents, axis1=1, axis2=2).copy()
     for directions in ([0, 1], [2]):
         distance = np.linalg.norm(moved[:, directions], axis=1)
@@ -224,7 +243,7 @@ def _soil_at_head(pile: System, q: Array, memory: Array) -> Array:
 
 
 def _soil_and_past(pile: System, memory: Array) -> Iterator[tuple[KernelLoad, Array]]:
-    """Each load of the soil, with what it keeps of its past."""
+    """Each soil load, with its memory."""
     soil, root = compiled_loads(pile.foundation.soil), pile.foundation.root
     held = FREE if root is None else root.compiled()
     return zip(soil, split_memory(soil, held, memory)[:-1], strict=True)

@@ -1,6 +1,6 @@
-"""Foundations that stand for another: a cantilever of apparent fixity, and a macro-element.
+"""Equivalent foundations: a cantilever of apparent fixity, and a macro-element.
 
-Both take their small-amplitude stiffness at the mudline from a 6x6, given or condensed from the
+Both take their stiffness for small motions at the mudline from a 6x6, given or condensed from the
 unloaded distributed springs; the macro-element also follows a monotonic loading of the mudline.
 """
 
@@ -36,21 +36,21 @@ from offwind_pin.structure.section import diameter_and_thickness, outer_diameter
 
 _APPARENT = "apparent_pile"
 _FIRST_SHARE = 1e-6
-"""Of the largest displacement, at which the first yield surface of a pushover lies."""
+"""Fraction of the largest displacement at which the first yield surface of a pushover lies."""
 _COLUMNS = ("horizontal_load_n", "displacement_m", "rotation_rad")
 
 
 def apparent_fixity(turbine: Turbine) -> Foundation:
     """A cantilever below the mudline, clamped at its foot, in place of pile and soil.
 
-    Its length and bending stiffness give a horizontal load at the arm the displacement and the
-    rotation of the mudline that the 6x6 gives, and its torsional stiffness is the 6x6's. It has the
-    diameter, wall and density of the pile at the mudline, and does not stretch.
+    Its length and bending stiffness are such that, under a horizontal load at the arm, displacement
+    and rotation of the mudline are those of the 6x6; its torsional stiffness is that of the 6x6. It
+    has the diameter, wall and density of the pile at the mudline, and is inextensible.
 
     Raises
     ------
     InputError
-        No stiffness to stand for, one that differs between planes, or none such cantilever.
+        No stiffness is given, it differs between planes, or there is no such cantilever.
     """
     choice = turbine.soil.apparent_fixity or ApparentFixity()
     stiffness = mudline_stiffness(turbine, choice.stiffness_from)
@@ -97,7 +97,7 @@ def apparent_fixity(turbine: Turbine) -> Foundation:
 
 
 def equivalent_cantilever(stiffness: Array, arm: float) -> tuple[float, float]:
-    """Length in m and EI in N m2 of the cantilever that moves as a 6x6 does.
+    """Length in m and EI in N m2 of the cantilever equivalent to a 6x6.
 
     Under a horizontal load H at an arm e, u = H (L^3 / 3 + e L^2 / 2) / EI and
     theta = H (L^2 / 2 + e L) / EI; their ratio is a quadratic equation for L.
@@ -105,14 +105,14 @@ def equivalent_cantilever(stiffness: Array, arm: float) -> tuple[float, float]:
     Parameters
     ----------
     stiffness : (6, 6) array, N, m, rad
-        At the mudline.
+        Stiffness at the mudline.
     arm : float, m
-        Of the load above the mudline.
+        Height of the load above the mudline.
 
     Raises
     ------
     InputError
-        Planes of different stiffness, or a 6x6 that no cantilever stands for.
+        Planes of different stiffness, or a 6x6 without an equivalent cantilever.
     """
     check_planes(stiffness)
     flexibility = np.linalg.inv(stiffness[np.ix_([0, 4], [0, 4])])
@@ -121,7 +121,7 @@ def equivalent_cantilever(stiffness: Array, arm: float) -> tuple[float, float]:
         raise InputError(
             "6x6 stiffness at the mudline",
             f"a displacement of {shift:.3g} m and a rotation of {turn:.3g} rad per N",
-            "both along the load",
+            "both in the direction of the load",
             "Check the sign of the coupling term x-ry (negative).",
         )
     ratio = shift / turn
@@ -131,14 +131,14 @@ def equivalent_cantilever(stiffness: Array, arm: float) -> tuple[float, float]:
 
 
 def macro_element(turbine: Turbine) -> Foundation:
-    """Kinematic-hardening plasticity at the mudline that follows a monotonic loading of it.
+    """Kinematic-hardening plasticity at the mudline, calibrated to a monotonic loading.
 
     Raises
     ------
     InputError
-        Nothing to take the loading or the 6x6 from, or parts that do not fit.
+        No source for the loading or the 6x6, or parts that do not match.
     SolverError
-        The distributed springs gave way before the pushover's end.
+        The soil failed before the end of the pushover.
     """
     calibration = turbine.soil.macro_element or MacroElementCalibration()
     arm = _arm(turbine, calibration.load_arm)
@@ -166,7 +166,7 @@ def macro_element(turbine: Turbine) -> Foundation:
 
 
 def mudline_stiffness(turbine: Turbine, source: StiffnessSource | None) -> Array:
-    """(6, 6) at the mudline in N, m, rad; by default the given one if there is one."""
+    """(6, 6) at the mudline in N, m, rad; by default the given one, if any."""
     if _is_condensed(turbine, source):
         return condensed_stiffness(turbine)
     return given_stiffness(turbine)
@@ -179,14 +179,14 @@ def _is_condensed(turbine: Turbine, source: StiffnessSource | None) -> bool:
 
 
 def condensed_stiffness(turbine: Turbine) -> Array:
-    """(6, 6) that small motions of the unloaded pile see at the mudline, in N, m, rad."""
+    """(6, 6) stiffness for small motions of the unloaded pile at the mudline, in N, m, rad."""
     pile = pile_only(_undamped(turbine))
     system = assemble(pile, distributed_springs(pile))
     return condense(system, static(system)).symmetric
 
 
 def _undamped(turbine: Turbine) -> Turbine:
-    """A copy whose springs follow their curves and nothing else, which is all that is asked."""
+    """A copy with elastic springs, without dashpots or sliders."""
     springs = turbine.soil.distributed_springs
     if springs is None:
         raise missing(turbine, "distributed_springs")
@@ -201,7 +201,7 @@ def _arm(turbine: Turbine, given: float | None) -> float:
 
 
 def _above(turbine: Turbine, mudline: float) -> tuple[Member, ...]:
-    """The members above the mudline, the one it cuts cut."""
+    """The members above the mudline, with the one across it cut."""
     kept = []
     for member in turbine.members:
         if member.bottom >= mudline:
@@ -217,7 +217,7 @@ def _above(turbine: Turbine, mudline: float) -> tuple[Member, ...]:
 
 
 def _surrogate(turbine: Turbine, source: StiffnessSource | None) -> str | None:
-    """The springs' own remark, where they are what was taken."""
+    """The remark of the springs that were used."""
     springs = turbine.soil.distributed_springs
     if springs is None or not _is_condensed(turbine, source):
         return None
@@ -225,12 +225,12 @@ def _surrogate(turbine: Turbine, source: StiffnessSource | None) -> str | None:
 
 
 def _read_path(file: Path) -> tuple[Array, Array, Array]:
-    """Load in N, displacement in m and rotation in rad of a loading, without its start."""
+    """Load in N, displacement in m and rotation in rad of a loading, without its initial point."""
     rows = read_numbers(file, _COLUMNS).values
     loaded = rows[np.any(rows != 0, axis=1)]
     if len(loaded) == 0:
         raise InputError(
-            str(file), "no load but zero", "one loaded point or more", "Is the file complete?"
+            str(file), "zero loads only", "one loaded point or more", "Is the file complete?"
         )
     load, displacement, rotation = loaded.T
     return load, displacement, rotation

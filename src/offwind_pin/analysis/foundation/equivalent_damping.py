@@ -1,4 +1,5 @@
-"""Equivalent viscous damping of a soil spring: what a harmonic cycle takes over what it stores."""
+"""Equivalent viscous damping of a soil spring: dissipated over stored energy in a harmonic
+cycle."""
 
 from __future__ import annotations
 
@@ -14,9 +15,9 @@ from offwind_pin.loads.point_load import KernelLoad
 from offwind_pin.loads.soil.springs.elastic import SoilSprings, SpringComponent
 
 _STEPS = 400
-"""In a cycle. What turns back at the peaks leaves an error of second order, 2e-5 of the energy."""
+"""Steps per cycle. Reversal at the peaks leaves a second-order error, 2e-5 of the energy."""
 _COLUMNS = 21
-"""Of the motion of a point."""
+"""Number of columns of the motion of a point."""
 
 
 def equivalent_damping(
@@ -24,21 +25,21 @@ def equivalent_damping(
 ) -> xr.Dataset:
     """Damping ratio E / (2 pi K Y^2) of one spring in harmonic motion y = Y sin(2 pi f t).
 
-    E is the work that the load's own forces take in a cycle, dashpot included, and K their secant
-    stiffness at the peak, at rest; sliders go through a first loading before. At resonance a
-    structure on this spring alone is damped by that ratio of critical (Chopra, Dynamics of
-    Structures, Sec. 3.9, which writes E / (4 pi E_s) with the elastic energy E_s = K Y^2 / 2).
+    E is the work done against the load in a cycle, dashpot included, and K the static secant
+    stiffness at the peak; sliders are loaded once before. At resonance a structure on this spring
+    alone has this damping ratio of critical (Chopra, Dynamics of Structures, Sec. 3.9, in the form
+    E / (4 pi E_s) with the elastic energy E_s = K Y^2 / 2).
 
     Parameters
     ----------
     springs : SoilSprings
-        Of a foundation, :class:`SoilSprings` or :class:`HystereticSprings`.
+        Springs of a foundation.
     amplitudes : (a,) array_like
-        Y in m, or in rad for springs against rotation, above zero.
+        Amplitudes Y in m, or in rad for rotational springs, above zero.
     frequencies : (f,) array_like, Hz
-        Above zero.
+        Frequencies above zero.
     node : int
-        Number of the spring among the load's.
+        Index of the spring, from the mudline down.
 
     Returns
     -------
@@ -49,8 +50,7 @@ def equivalent_damping(
     Raises
     ------
     InputError
-        Amplitudes or frequencies that are not above zero, no such node, or one at which nothing
-        resists.
+        Amplitudes or frequencies that are not above zero, no such node, or one without resistance.
     """
     amplitude, frequency = (
         _above_zero("amplitudes", amplitudes),
@@ -101,12 +101,12 @@ def _cycle(spring: SoilSprings, amplitude: float, rate: float) -> tuple[float, f
         motion = _motion(component, amplitude * np.cos(angle), speed)
         power[k] = _force(load, component, motion, memory) * speed
         load.commit_kernel(motion, load.constants, np.zeros(0), memory)
-    # equal weights are the trapezoidal rule: the speed vanishes at both ends
+    # equal weights are the trapezoidal rule, since the speed vanishes at both ends
     return float(np.sum(power) * 2 * np.pi / rate / _STEPS), peak / amplitude
 
 
 def _motion(component: SpringComponent, deflection: float, speed: float) -> Array:
-    """(1, 21) motion of the spring's point, along the first of its directions."""
+    """(1, 21) motion of the spring's point along its first direction."""
     motion = np.zeros((1, _COLUMNS))
     motion[0, component.deflection] = deflection
     motion[0, component.rate] = speed
@@ -114,14 +114,14 @@ def _motion(component: SpringComponent, deflection: float, speed: float) -> Arra
 
 
 def _force(load: KernelLoad, component: SpringComponent, motion: Array, memory: Array) -> float:
-    """Force in N, or moment in N m, that keeps the spring there."""
+    """Force in N, or moment in N m, that holds the spring in place."""
     force = np.zeros((1, 6))
     load.force_kernel(motion, load.constants, np.zeros(0), memory, force)
     return -float(force[0, component.force])
 
 
 def _single(springs: SoilSprings, node: int) -> SoilSprings:
-    """One of the springs by itself."""
+    """A single spring."""
     count = len(springs.height)
     if not 0 <= node < count:
         raise InputError("node", node, f"0 to {count - 1}", "Count from the mudline down.")
@@ -131,7 +131,7 @@ def _single(springs: SoilSprings, node: int) -> SoilSprings:
             "node",
             f"{node}, at a height of {springs.height[node]:.6g} m",
             "a node at which the soil resists",
-            "Choose a deeper one.",
+            "Choose a deeper node.",
         )
     height, length = springs.height[[node]], springs.tributary_length[[node]]
     return replace(springs, height=height, tributary_length=length, curves=curves)
@@ -140,5 +140,5 @@ def _single(springs: SoilSprings, node: int) -> SoilSprings:
 def _above_zero(name: str, given: ArrayLike) -> Array:
     values = np.atleast_1d(np.asarray(given, dtype=float))
     if values.ndim != 1 or not np.all((values > 0) & np.isfinite(values)):
-        raise InputError(name, given, "finite numbers above zero", "Leave the others out.")
+        raise InputError(name, given, "finite numbers above zero", "Remove the others.")
     return values

@@ -1,4 +1,4 @@
-"""The embedded pile by itself: as a turbine of its own, or cut out of a system."""
+"""The embedded pile alone: as a separate turbine, or as part of a system."""
 
 from __future__ import annotations
 
@@ -21,24 +21,29 @@ _NOTHING = RigidBodyRNA(
     center_of_mass_m=(0.0, 0.0, 0.0),
     inertia_about_center_of_mass_kg_m2=((1e-3, 0.0, 0.0), (0.0, 1e-3, 0.0), (0.0, 0.0, 1e-3)),
 )
-"""What sits on the pile in place of a rotor-nacelle assembly: a gram on a pile of 1000 t."""
+"""Mass on the pile in place of a rotor-nacelle assembly: a gram on a pile of 1000 t."""
 
 
 def pile_only(turbine: Turbine, stick_up: float = 0.0) -> Turbine:
-    """The pile of a turbine without anything on it and without structural damping.
+    """The bare pile of a turbine, without structural damping.
 
     Build it on ``"distributed_springs"``; ``tower_top_load`` of :func:`static` then acts at its
     head.
 
     Parameters
     ----------
+    turbine : Turbine
     stick_up : float, m
-        Length of the structure above the mudline that stays, for loads that act there.
+        Length of structure to keep above the mudline, for loads that act there.
+
+    Returns
+    -------
+    Turbine
 
     Raises
     ------
     InputError
-        No pile below the mudline, or a stick-up that ends off the structure.
+        No pile below the mudline, or a stick-up beyond the structure.
     """
     mudline = turbine.site.mudline
     _check_pile(turbine)
@@ -46,7 +51,7 @@ def pile_only(turbine: Turbine, stick_up: float = 0.0) -> Turbine:
     if not 0 <= stick_up <= longest:
         raise InputError("stick_up", stick_up, f"0 to {longest} m", "Cut within the structure.")
     head = mudline + stick_up
-    # Copied without validation: a definition asks for something above the mudline.
+    # Copied without validation: a definition requires structure above the mudline.
     return turbine.model_copy(
         update={
             "members": tuple(_below(m, head) for m in turbine.members if m.bottom < head),
@@ -59,15 +64,15 @@ def pile_only(turbine: Turbine, stick_up: float = 0.0) -> Turbine:
 
 
 def wisdem_pile(turbine: Turbine, *, shear: bool = True) -> WisdemPile:
-    """The embedded pile as WISDEM has it, for its springs.
+    """The embedded pile in WISDEM's terms, for its springs.
 
-    Its shear area is WISDEM's own (``Tube`` in ``wisdem/commonse/cross_sections.py``), a polynomial
+    The shear area is WISDEM's (``Tube`` in ``wisdem/commonse/cross_sections.py``), a polynomial
     in the ratio of the radii that does not follow Poisson's ratio.
 
     Parameters
     ----------
     shear : bool
-        WISDEM's Frame3DD option of that name; without it the pile is stiff in shear.
+        WISDEM's Frame3DD option of that name; if False the pile is rigid in shear.
 
     Raises
     ------
@@ -86,7 +91,7 @@ def wisdem_pile(turbine: Turbine, *, shear: bool = True) -> WisdemPile:
             f"turbine {turbine.name}, field members",
             f"{len(sections)} different sections below the mudline",
             "one section and material",
-            "Give a WisdemPile of the section that WISDEM's pile shall have.",
+            "Give a WisdemPile with the section of WISDEM's pile.",
         )
     diameter, thickness, name = sections.pop()
     material = turbine.materials[name]
@@ -125,9 +130,9 @@ def _below(member: Member, head: float) -> Member:
 
 
 def pile_part(system: System) -> System:
-    """The pile of a system with the elements that it has there, dry and undamped.
+    """The pile of a system with the same elements, dry and undamped.
 
-    Its joints are the first of the whole system's.
+    Its joints are the first ones of the whole system.
 
     Raises
     ------
@@ -171,9 +176,9 @@ def pile_part(system: System) -> System:
 
 
 def axis_jacobian(motion: ChainMotion, height: float) -> Array:
-    """(6, nv) velocity (m/s) and spin (rad/s) of the axis at a height per unit joint velocity.
+    """(6, nv) velocity (m/s) and angular velocity (rad/s) of the axis per unit joint velocity.
 
-    Its transpose turns a force and moment there, fixed in the world, into generalised forces.
+    Its transpose maps a force and moment there, fixed in space, to generalised forces.
     """
     points = AxisPoints.on(motion.chain, np.array([height]))
     position = motion.points(points).position

@@ -1,4 +1,4 @@
-"""Pushover: a pile under a horizontal load that grows until its head has moved, or until a load."""
+"""Pushover: a pile under an increasing horizontal load, up to a displacement or a load."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ _SHARE_OF_DIAMETER = 0.1
 """Mudline displacement over diameter at which a monopile counts as failed, as in the PISA tests
 (Byrne et al., Geotechnique 70 (2020), 970-985)."""
 _RELATIVE_TOLERANCE = 1e-10
-"""Of the residual over the size of the loads."""
+"""Largest residual over the size of the loads."""
 _LARGEST_STEP = 0.2
-"""Of a joint in rad or m, and of the load in its unit, within one iteration."""
+"""Largest change of a joint in rad or m, and of the load in its unit, in one iteration."""
 _MOST_ITERATIONS = 25
 _HALVINGS = 8
-"""How often a step that Newton's method cannot take is halved."""
+"""How often a step is halved for which Newton's method does not converge."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,9 +48,9 @@ class Pushover:
     moment : (n,) array, N m
         H times the arm.
     displacement : (n,) array, m
-        Of the axis at the mudline along the load.
+        Displacement of the axis at the mudline along the load.
     rotation : (n,) array, rad
-        Of the axis there, forwards.
+        Rotation of the axis at the mudline in the direction of the load.
     """
 
     arm: float
@@ -73,35 +73,40 @@ def pushover(
     elements: Elements = None,
     element: Element = "euler_bernoulli",
 ) -> Pushover:
-    """Push the pile of a turbine at the mudline, with nothing on it, along x.
+    """Push the bare pile of a turbine at the mudline along x.
 
-    The load and its moment keep their directions; the pile's own weight acts, on its deflected
-    axis. Points are equally spaced in whatever is prescribed, the unloaded state first.
+    Load and moment keep their directions; the pile's weight acts on the deflected axis. Points are
+    evenly spaced in the prescribed quantity, starting with the unloaded state.
 
     Parameters
     ----------
+    turbine : Turbine
     arm : float, m
         Height above the mudline at which the load acts.
     until_displacement : float, m, optional
-        Mudline displacement at which to stop; by default, where no load is given, a tenth of the
-        diameter there.
+        Mudline displacement at which to stop; by default, without a load, a tenth of the diameter
+        there.
     until_load : float, N, optional
-        Horizontal load at which to stop, instead.
+        Horizontal load at which to stop.
     displacements : (n,) array, m, optional
-        Of the mudline, rising, at which to find the load, instead.
+        Increasing mudline displacements at which to find the load.
     points : int
         Number of states after the unloaded one.
     elements : int, dict of str to int, or None
-        As for :func:`build`, of the pile alone.
+        As for :func:`build`, for the pile alone.
     element : {"euler_bernoulli", "timoshenko"}
         As for :func:`build`.
+
+    Returns
+    -------
+    Pushover
 
     Raises
     ------
     InputError
-        An argument that cannot be used, or a turbine without a pile or its soil.
+        An invalid argument, or a turbine without a pile or soil.
     SolverError
-        No equilibrium at a load; its ``results`` hold the :class:`Pushover` so far.
+        No equilibrium at a load; ``results`` contains the :class:`Pushover` so far.
     """
     ends = {
         "until_displacement": until_displacement,
@@ -113,11 +118,11 @@ def pushover(
         raise InputError(", ".join(given), "all of them", "one of them", "Leave the others out.")
     for name, value in (("until_displacement", until_displacement), ("until_load", until_load)):
         if value is not None and not 0 < value < np.inf:
-            raise InputError(name, value, "a finite number above zero", "Push forwards.")
+            raise InputError(name, value, "a finite number above zero", "Correct it.")
     if not np.isfinite(arm):
-        raise InputError("arm", arm, "a finite height in m", "Give where the load acts.")
+        raise InputError("arm", arm, "a finite height in m", "Give the height of the load.")
     if points < 1:
-        raise InputError("points", points, "1 or more", "Ask for a point at least.")
+        raise InputError("points", points, "1 or more", "Correct it.")
     pile = pile_only(turbine)
     system = assemble(pile, distributed_springs(pile), elements=elements, element=element)
     if displacements is not None:
@@ -135,7 +140,7 @@ def pushover(
 
 
 class _Press:
-    """What pushes a pile. Its unknowns are the joints and the load, of which one is prescribed."""
+    """Equilibrium of a pushed pile. Unknowns are the joints and the load."""
 
     def __init__(self, system: System, arm: float, *, by_load: bool) -> None:
         self.system = system
@@ -148,10 +153,10 @@ class _Press:
         self._chain = CompiledChain(system, [constant_load(system.chain.top, np.zeros(6))])
         self._unloaded = self._chain.mean_inputs()
         self.unit = self._linear_stiffness()
-        """Of the load among the unknowns, in N: it makes them alike in size."""
+        """Scale of the load in N, which makes the unknowns similar in size."""
 
     def through(self, targets: Array) -> Pushover:
-        """Take the pile through displacements in m or loads in N, each step as long as it can."""
+        """Follow displacements in m or loads in N, with the longest steps that converge."""
         found: list[Array] = []
         x = np.zeros(self.system.nv + 1)
         reached = 0.0
@@ -175,8 +180,8 @@ class _Press:
     def _solve(self, start: Array, goal: float) -> NewtonResult:
         """Equilibrium at a displacement or a load.
 
-        One equation is added to those of the joints, which prescribes the load, or the displacement
-        times the scale over a metre, so that it weighs like a force.
+        One equation is added to those of the joints. It prescribes the load, or the displacement
+        times the scale per metre, which makes it comparable with a force.
         """
 
         def residual(x: Array) -> Array:
@@ -250,8 +255,7 @@ class _Press:
         what = f"under {goal:.6g} N" if self.by_load else f"at {goal:.6g} m"
         last = f"{so_far.load[-1]:.6g} N and {so_far.displacement[-1]:.6g} m at the mudline"
         return SolverError(
-            f"the soil holds the pile no longer: no equilibrium {what}; the last one found has "
-            f"{last}",
+            f"the soil fails: no equilibrium {what}; the last equilibrium is at {last}",
             step=len(found),
             joint=joint,
             residual=size,

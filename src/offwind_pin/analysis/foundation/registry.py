@@ -1,6 +1,6 @@
 """Kinds of foundation by name, with their wording.
 
-Help texts and completion read the names here, so each kind imports its builder when it is used.
+Help texts and completion use these names, so each kind imports its builder only when it is used.
 """
 
 from __future__ import annotations
@@ -19,18 +19,18 @@ _log = logging.getLogger(__name__)
 
 
 class FoundationKind(ABC):
-    """A kind of foundation with a name: base class of the package's and of a user's own.
+    """A kind of foundation with a name: base class of the package's kinds and of your own.
 
     Attributes
     ----------
     name : str
-        In case files and commands.
+        Name in case files and commands.
     description : str
-        In tables, figures and reports.
+        Description in tables, figures and reports.
     preposition : str
-        Between a structure and the description in a sentence.
+        Preposition between a structure and the description in a sentence.
     lower_end : str
-        What the lower end of a structure is that reaches below the mudline.
+        Name of the lower end of a structure that extends below the mudline.
     """
 
     name: ClassVar[str]
@@ -57,7 +57,16 @@ class FoundationKind(ABC):
         """
 
     def is_described(self, turbine: Turbine) -> bool:
-        """Whether a turbine file contains the numbers for it; `offwind show` lists those."""
+        """Whether a turbine file defines it; ``offwind show`` lists those foundations.
+
+        Parameters
+        ----------
+        turbine : Turbine
+
+        Returns
+        -------
+        bool
+        """
         return True
 
 
@@ -75,7 +84,7 @@ class Clamped(FoundationKind):
 
 
 class ApparentFixity(FoundationKind):
-    """A cantilever below the mudline, as stiff there as pile and soil."""
+    """A cantilever below the mudline with the stiffness of pile and soil."""
 
     name = "apparent_fixity"
     description = "apparent fixity below the mudline"
@@ -108,7 +117,7 @@ class CoupledSprings(FoundationKind):
 
 
 class DistributedSprings(FoundationKind):
-    """The pile to its toe, with the springs of the soil along it."""
+    """The pile to its toe, with soil springs along it."""
 
     name = "distributed_springs"
     description = "distributed springs"
@@ -123,7 +132,7 @@ class DistributedSprings(FoundationKind):
 
 
 class MacroElement(FoundationKind):
-    """Kinematic hardening at the mudline, calibrated by a monotonic loading."""
+    """Kinematic hardening at the mudline, calibrated to a monotonic loading."""
 
     name = "macro_element"
     description = "macro-element at the mudline"
@@ -143,7 +152,7 @@ FOUNDATIONS: dict[str, FoundationKind] = {}
 
 
 def register_foundation(kind: FoundationKind) -> None:
-    """Make a kind of foundation known by its name to :func:`build`, case files and commands.
+    """Register a kind of foundation by name for :func:`build`, case files and commands.
 
     Parameters
     ----------
@@ -152,7 +161,7 @@ def register_foundation(kind: FoundationKind) -> None:
     Raises
     ------
     InputError
-        A kind of another class has the name.
+        A kind of another class already has the name.
     """
     known = FOUNDATIONS.get(kind.name)
     if known is not None and type(known) is not type(kind):
@@ -163,7 +172,7 @@ def register_foundation(kind: FoundationKind) -> None:
 
 
 def make_foundation(turbine: Turbine, kind: str | Foundation) -> Foundation:
-    """The foundation of that name for a turbine, or the one given; cautions go to the log.
+    """The foundation of a name for a turbine, or the one given; cautions go to the log.
 
     Raises
     ------
@@ -184,7 +193,7 @@ def make_foundation(turbine: Turbine, kind: str | Foundation) -> Foundation:
 
 
 def described_foundations(turbine: Turbine) -> list[str]:
-    """Names of those that the turbine's soil has the numbers for."""
+    """Names of the foundations that the turbine defines."""
     return [name for name, kind in FOUNDATIONS.items() if kind.is_described(turbine)]
 
 

@@ -1,4 +1,4 @@
-"""One number of a turbine definition by a dotted path, read or replaced."""
+"""Numbers of a turbine definition by dotted path, read or replaced."""
 
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ Model = TypeVar("Model", bound=BaseModel)
 def number_at(definition: BaseModel, path: str) -> float:
     """The number at a path such as ``soil.distributed_springs.curve.modulus.gradient``.
 
-    A step is a field by its name in Python or in files, a key of a mapping, or the place of an
-    item counted from 0.
+    A step is a field by its name in Python or in files, a key of a mapping, or the index of an item
+    from 0.
 
     Raises
     ------
     InputError
-        A step that is not there, with the nearest that is; or something else than a number.
+        An unknown step, with the closest known one; or a value that is not a number.
     """
     node: Any = definition
     steps = path.split(".")
     for i, step in enumerate(steps):
         node = _below(node, _key(node, step, path, i))
     if isinstance(node, bool) or not isinstance(node, int | float):
-        kind = "nothing" if node is None else f"a {type(node).__name__}"
+        kind = "an empty block" if node is None else f"a {type(node).__name__}"
         remedy = _hint(node)
         raise InputError(f"path {path!r}", kind, "the path of a number", remedy)
     return float(node)
@@ -40,7 +40,7 @@ def with_number(definition: Model, path: str, value: float) -> Model:
     Raises
     ------
     InputError
-        A step that is not there, or a number that the definition does not allow.
+        An unknown step, or a number that the definition does not allow.
     """
     try:
         return _replaced(definition, path.split("."), value, path, 0)
@@ -62,7 +62,7 @@ def _replaced(node: Any, steps: list[str], value: float, path: str, depth: int) 
 
 
 def _key(node: Any, step: str, path: str, depth: int) -> Any:
-    """The field name, mapping key or index that a step means."""
+    """Field name, mapping key or index of a step."""
     steps = _steps(node)
     if step in steps:
         return steps[step]
@@ -72,12 +72,12 @@ def _key(node: Any, step: str, path: str, depth: int) -> Any:
     hint = f"Did you mean {near[0]!r}?" if near else "Choose one of them."
     if not known:
         place = ".".join(path.split(".")[:depth])
-        hint = f"There is nothing below {place!r}: end the path there, or fill in that block first."
+        hint = f"{place!r} has no further steps: end the path there, or fill in that block first."
     raise InputError(where, step, ", ".join(known) or "no further step", hint)
 
 
 def _steps(node: Any) -> dict[str, Any]:
-    """What may follow a node, by the text of the step."""
+    """Possible next steps of a node, by their text."""
     if isinstance(node, BaseModel):
         fields = type(node).model_fields
         names: dict[str, Any] = {name: name for name in fields}
@@ -95,4 +95,4 @@ def _below(node: Any, key: Any) -> Any:
 
 def _hint(node: Any) -> str:
     steps = ", ".join(_steps(node))
-    return f"Go on to one of {steps}." if steps else "Choose another."
+    return f"Continue to one of {steps}." if steps else "Choose another path."

@@ -1,4 +1,4 @@
-"""Identification: numbers of a turbine's soil, or of any part of it, from measured responses."""
+"""Identification of soil parameters, or of any number of a definition, from measured responses."""
 
 from __future__ import annotations
 
@@ -21,31 +21,38 @@ from offwind_pin.loads.sea.sea import Sea
 from offwind_pin.structure.chain import Elements
 
 UNTOLD = 1 / np.sqrt(12)
-"""Standard error of a combination, in shares of the parameters' ranges, from which on the data do
-not determine it: the standard deviation of a uniform distribution over the range, which is what the
-bounds say without any data."""
+"""Standard error of a combination, in shares of the parameters' ranges, above which the data do not
+determine it: the standard deviation of a uniform distribution over the range, which follows from
+the bounds alone."""
 NUMERICAL_RANK = 1e-6
-"""Singular value over the largest one no different from zero: the accuracy of differences
-of responses that are solved to 1e-10."""
+"""Singular value over the largest one below which it is zero: the accuracy of differences of
+responses that are solved to 1e-10."""
 SIGNIFICANCE = 0.05
-"""Probability of a larger chi-square below which the targets do not fit together in the model."""
+"""Probability of a larger chi-square below which the targets are inconsistent with the model."""
 _STEP = 1e-4
-"""Of differences, in shares of a parameter's range."""
+"""Step of finite differences, as a share of a parameter's range."""
 _AT_BOUND = 1e-4
-"""Distance from a bound, in shares of the range, within which the bound holds the parameter."""
+"""Distance from a bound, as a share of the range, within which the parameter is at the bound."""
 _TOLERANCE = 1e-6
-"""Of the least squares: relative change of the sum, and of the parameters."""
+"""Tolerance of the least squares: relative change of the sum, and of the parameters."""
 _ALONE = 0.99
-"""Share of one parameter in a combination from which on the combination is called by its name."""
+"""Share of one parameter in a combination above which the combination has its name."""
 
 
 @dataclass(frozen=True)
 class Parameter:
     """A number of the definition to be found between two bounds.
 
-    path : dotted, ``"soil.distributed_springs.curve.initial_modulus.gradient"``
-    start : by default what the turbine has, or the middle where that is out of bounds
-    log : search over the logarithm, for numbers of unknown order of magnitude
+    Attributes
+    ----------
+    path : str
+        Dotted, such as ``"soil.distributed_springs.curve.initial_modulus.gradient"``.
+    lower, upper : float
+        Bounds.
+    start : float or None
+        Start of the search; by default the turbine's value, or the middle if that is out of bounds.
+    log : bool
+        Whether to search over the logarithm, for numbers of unknown order of magnitude.
     """
 
     path: str
@@ -62,24 +69,46 @@ class Parameter:
         if not (np.all(np.isfinite(bounds)) and self.lower < self.upper):
             raise InputError(where, bounds, "finite bounds, lower before upper", "Correct them.")
         if self.log and self.lower <= 0:
-            raise InputError(where, self.lower, "a lower bound above zero", "Or set log=False.")
+            raise InputError(
+                where, self.lower, "a lower bound above zero", "Raise it, or set log=False."
+            )
         if self.start is not None and not self.lower <= self.start <= self.upper:
             allowed = f"{self.lower} to {self.upper}"
             raise InputError(f"{where}, start", self.start, allowed, "Start within the bounds.")
 
     @property
     def name(self) -> str:
-        """The path's last two steps."""
+        """Last two steps of the path."""
         return ".".join(self.path.split(".")[-2:])
 
     def value(self, share: float) -> float:
-        """The number at a share of the range from 0 to 1."""
+        """Value at a fraction of the range.
+
+        Parameters
+        ----------
+        share : float
+            From 0 to 1.
+
+        Returns
+        -------
+        float
+        """
         if self.log:
             return float(self.lower * (self.upper / self.lower) ** share)
         return self.lower + share * (self.upper - self.lower)
 
     def share(self, value: float) -> float:
-        """Place of a number in the range, from 0 to 1."""
+        """Fraction of the range at a value.
+
+        Parameters
+        ----------
+        value : float
+
+        Returns
+        -------
+        float
+            From 0 to 1.
+        """
         if self.log:
             return float(np.log(value / self.lower) / np.log(self.upper / self.lower))
         return (value - self.lower) / (self.upper - self.lower)
@@ -87,12 +116,12 @@ class Parameter:
 
 @dataclass(frozen=True)
 class FoundParameter:
-    """What became of a parameter.
+    """Result for a parameter.
 
-    standard_error : of the value, from the targets' uncertainties; infinite where the data leave it
-        open
+    standard_error : of the value, from the targets' uncertainties; infinite if the data do not
+        determine it
     identifiable : whether the data determine it
-    bound : ``"lower"`` or ``"upper"`` if that holds it, else None
+    bound : ``"lower"`` or ``"upper"`` if the value is at this bound, else None
     """
 
     parameter: Parameter
@@ -104,9 +133,9 @@ class FoundParameter:
 
 @dataclass(frozen=True, eq=False)
 class FoundTarget:
-    """What became of a target.
+    """Result for a target.
 
-    found : (k,) the model's response; distance : (k,) found minus wanted over the uncertainty
+    found : (k,) response of the model; distance : (k,) found minus wanted over the uncertainty
     """
 
     target: Target
@@ -121,29 +150,31 @@ class SoilIdentification:
     Attributes
     ----------
     turbine : Turbine
-        The definition with the numbers found.
-    parameters, targets : tuple of FoundParameter
-        What became of each, in the order given.
+        The definition with the identified numbers.
+    parameters : tuple of FoundParameter
+        Results for the parameters, in the order given.
+    targets : tuple of FoundTarget
+        Results for the targets, in the order given.
     jacobian : (m, p) array
-        Distances of all targets by the parameters' shares of their ranges.
+        Derivatives of the distances of all targets by the parameters' shares of their ranges.
     sensitivity : (m, p) array
         Relative change of each response per relative change of each parameter.
     covariance : (p, p) array
-        Of the shares, of the determined combinations only.
+        Covariance of the shares, for the determined combinations only.
     singular_values : (p,) array
-        Of the Jacobian: one over the standard error of a combination, in shares.
+        Singular values of the Jacobian: one over the standard error of a combination, in shares.
     combinations : (p, p) array
-        Rows are the combinations of shares that belong to them.
+        Rows are the corresponding combinations of shares.
     chi_square : float
         Sum of squared distances.
     degrees_of_freedom : int
-        Responses less determined combinations.
+        Number of responses minus determined combinations.
     probability : float
-        Of a larger chi-square by chance; NaN without degrees of freedom.
+        Probability of a larger chi-square; NaN without degrees of freedom.
     evaluations : int
-        Models solved.
+        Number of models solved.
     verdict : str
-        All of it in words.
+        The result in words.
     """
 
     turbine: Turbine
@@ -169,7 +200,7 @@ class SoilIdentification:
 
     @property
     def meets_targets(self) -> bool:
-        """Whether the targets are met as well as their uncertainties ask for."""
+        """Whether the targets are met within their uncertainties."""
         if self.degrees_of_freedom > 0:
             return self.probability >= SIGNIFICANCE
         return self.chi_square <= chi2.isf(SIGNIFICANCE, len(self.jacobian))
@@ -187,18 +218,21 @@ def identify_soil(
     starts: int = 1,
     progress: Callable[[int, float], None] | None = None,
 ) -> SoilIdentification:
-    """Fit numbers of a definition to responses by bounded least squares over the model itself.
+    """Fit numbers of a definition to responses by bounded least squares on the full model.
 
-    The sum of squared distances, each over its uncertainty, is made least by a trust-region method
-    (SciPy's ``least_squares``); what the data determine is judged at the minimum by the singular
-    values of the Jacobian.
+    The sum of squared distances, each over its uncertainty, is minimised by a trust-region method
+    (SciPy's ``least_squares``). Identifiability is judged at the minimum by the singular values of
+    the Jacobian.
 
     Parameters
     ----------
+    turbine : Turbine
+        Definition to start from.
     targets : sequence of Target
-        :class:`FrequencyTarget`, :class:`DeflectionTarget`, :class:`ShapeTarget`.
+        Responses to be met: :class:`FrequencyTarget`, :class:`DeflectionTarget`,
+        :class:`ShapeTarget`.
     parameters : sequence of Parameter
-        What to find; the rest of the definition stays.
+        Numbers to identify; the rest of the definition does not change.
     foundation : str
         As for :func:`build`.
     sea : Sea, optional
@@ -208,26 +242,30 @@ def identify_soil(
     elements : int, dict of str to int, or None
         As for :func:`build`.
     starts : int
-        Searches, of which the best is kept: the first from where the parameters start, further ones
-        from points spread over the ranges (Halton's sequence), against local minima.
+        Number of searches, of which the best is kept: the first from the parameters' starts,
+        further ones from points spread over the ranges (Halton sequence), to avoid local minima.
     progress : callable, optional
         Called with the number of models solved and half the sum of squares after each.
+
+    Returns
+    -------
+    SoilIdentification
 
     Raises
     ------
     InputError
-        Nothing to fit, a path that leads nowhere, a number that the definition forbids.
+        Nothing to fit, an unknown path, or a number that the definition does not allow.
     SolverError
-        A model without equilibrium, as of a soil too weak for its structure.
+        A model without equilibrium, for example with too weak a soil.
     """
     if not targets or not parameters:
         given = f"{len(targets)} targets and {len(parameters)} parameters"
-        raise InputError("identify_soil", given, "one of each at least", "Add what is missing.")
+        raise InputError("identify_soil", given, "at least one of each", "Add what is missing.")
     if starts < 1:
-        raise InputError("starts", starts, "1 or more", "Search once at least.")
+        raise InputError("starts", starts, "1 or more", "Correct it.")
     paths = [parameter.path for parameter in parameters]
     if len(set(paths)) < len(paths):
-        raise InputError("parameters", paths, "each path once", "Remove the double.")
+        raise InputError("parameters", paths, "each path once", "Remove the duplicate.")
     fit = _Fit(
         turbine,
         targets,
@@ -242,7 +280,7 @@ def identify_soil(
 
 
 def _start(turbine: Turbine, parameter: Parameter) -> float:
-    """Share of the range to start from, off the bounds."""
+    """Share of the range at which to start, away from the bounds."""
     present = number_at(turbine, parameter.path)
     if parameter.start is not None:
         share = parameter.share(parameter.start)
@@ -312,7 +350,7 @@ class _Fit:
         return np.clip(result.x, 0, 1)
 
     def forward_differences(self, shares: Array) -> Array:
-        """(m, p) derivatives by the shares, good enough to walk by; steps lead inwards."""
+        """(m, p) derivatives by the shares for the search; steps point inwards."""
         here = self.distances(shares)
         columns = []
         for i, share in enumerate(shares):
@@ -321,7 +359,7 @@ class _Fit:
         return np.array(columns).T
 
     def central_differences(self, shares: Array) -> Array:
-        """(m, p) derivatives by the shares to second order; at a bound, a step inside it."""
+        """(m, p) derivatives by the shares to second order; at a bound from inside."""
         middle = np.clip(shares, _STEP, 1 - _STEP)
         columns = []
         for i in range(len(shares)):
@@ -390,7 +428,7 @@ class _Fit:
         )
 
     def _sensitivity(self, jacobian: Array, distances: Array, shares: Array) -> Array:
-        """(m, p) d ln response / d ln parameter; NaN of a response that is zero."""
+        """(m, p) d ln response / d ln parameter; NaN for a response of zero."""
         response = self.wanted + self.uncertainty * distances
         relative = np.full_like(response, np.nan)
         np.divide(self.uncertainty, response, out=relative, where=response != 0)
@@ -411,7 +449,7 @@ def _unit(i: int, count: int) -> Array:
 
 
 def _in_words(outcome: SoilIdentification) -> str:
-    """What the data determine, which bounds hold, and whether the targets are met."""
+    """Determined parameters, active bounds, and whether the targets are met."""
     lines = []
     names = [found.parameter.name for found in outcome.parameters]
     for found in outcome.parameters:
@@ -423,14 +461,14 @@ def _in_words(outcome: SoilIdentification) -> str:
             lines.append(f"{found.parameter.name} is not identifiable from these targets.")
         if found.bound is not None:
             limit = getattr(found.parameter, found.bound)
-            lines.append(f"{found.parameter.name} is held by its {found.bound} bound {limit:.4g}.")
+            lines.append(f"{found.parameter.name} is at its {found.bound} bound {limit:.4g}.")
     if not outcome.identifiable:
         for value, row in zip(outcome.singular_values, outcome.combinations, strict=True):
             what = _combination(row, names)
             if value * UNTOLD > 1:
-                lines.append(f"Determined to {1 / value:.2g} of the range: {what}.")
+                lines.append(f"Determined to within {1 / value:.2g} of the range: {what}.")
             else:
-                lines.append(f"Left open by the data: {what}.")
+                lines.append(f"Not determined by the data: {what}.")
     worst = max(outcome.targets, key=lambda found: float(np.max(np.abs(found.distance))))
     far = worst.distance[int(np.argmax(np.abs(worst.distance)))]
     fit = f"chi-square {outcome.chi_square:.3g}"

@@ -1,4 +1,4 @@
-"""Measured or published responses that a model shall meet, and the model's own."""
+"""Measured or published responses as targets, and the responses of a model."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ from offwind_pin.loads.sea.sea import Sea
 from offwind_pin.structure.chain import Elements
 
 _MODES = 12
-"""Modes computed, among which the labels of targets are sought."""
+"""Number of modes among which the labels of targets are sought."""
 _SHOWN = {"FA": 0, "SS": 1, "V": 2, "T": 5}
 
 
 class Responses:
-    """Responses of a turbine, each computed when first asked for; structural damping left out."""
+    """Responses of a turbine without structural damping, computed when first used."""
 
     def __init__(
         self,
@@ -44,13 +44,13 @@ class Responses:
 
     @cached_property
     def modes(self) -> ModalResult:
-        """About the state under gravity."""
+        """Modes about the state under gravity."""
         count = min(_MODES, self.system.nv)
         return modes(self.system, count, about=self.state(None))
 
     @cached_property
     def clamped(self) -> System:
-        """The structure above the mudline, rigidly held there."""
+        """The structure above the mudline, clamped there."""
         above = self._elements
         if isinstance(above, Mapping):
             above = {name: n for name, n in above.items() if name != "pile"}
@@ -68,11 +68,11 @@ class Responses:
 
 
 class Target(Protocol):
-    """A response that is to be met."""
+    """A response to be met."""
 
     @property
     def name(self) -> str:
-        """In a few words."""
+        """Short name."""
 
     @property
     def uncertainty(self) -> float:
@@ -80,15 +80,34 @@ class Target(Protocol):
 
     @property
     def wanted(self) -> Array:
-        """(k,) the response to be met."""
+        """(k,) response to be met."""
 
     def found(self, responses: Responses) -> Array:
-        """(k,) the model's response."""
+        """Response of the model.
+
+        Parameters
+        ----------
+        responses : Responses
+            Responses of the model.
+
+        Returns
+        -------
+        (k,) array
+        """
 
 
 @dataclass(frozen=True)
 class FrequencyTarget:
-    """Natural frequency in Hz of the mode of a label (``"FA1"``), about the state under gravity."""
+    """Natural frequency of a mode about the static state under gravity.
+
+    Attributes
+    ----------
+    label : str
+        Label of the mode, such as ``"FA1"``.
+    value : float, Hz
+    uncertainty : float, Hz
+        One standard deviation.
+    """
 
     label: str
     value: float
@@ -101,13 +120,26 @@ class FrequencyTarget:
 
     @property
     def name(self) -> str:
+        """Short name."""
         return f"{self.label} frequency"
 
     @property
     def wanted(self) -> Array:
+        """(1,) frequency to be met, in Hz."""
         return np.array([self.value])
 
     def found(self, responses: Responses) -> Array:
+        """Frequency of the model.
+
+        Parameters
+        ----------
+        responses : Responses
+            Responses of the model.
+
+        Returns
+        -------
+        (1,) array, Hz
+        """
         result = responses.modes
         return result.frequency_hz[[result.index(self.label)]]
 
@@ -119,12 +151,14 @@ class DeflectionTarget:
     Attributes
     ----------
     value, uncertainty : float, m
-        With ``over_clamped`` the relative increase over the structure that is clamped at the
-        mudline, 0.143 for 14.3 %.
+        Displacement and one standard deviation; with ``over_clamped`` the relative increase.
     height : float or None, m
-        Of the point of the axis; the yaw bearing by default.
+        Height of the point on the axis; by default the yaw bearing.
     tower_top_load : tuple of float or None, N and N m
         Fx, Fy, Fz, Mx, My, Mz; none by default.
+    over_clamped : bool
+        Whether the target is the relative increase over the structure clamped at the mudline, such
+        as 0.143 for 14.3 %.
     """
 
     value: float
@@ -140,15 +174,28 @@ class DeflectionTarget:
 
     @property
     def name(self) -> str:
+        """Short name."""
         where = "tower top" if self.height is None else f"z = {self.height:g} m"
         load = "" if self.tower_top_load is None else " under load"
         return f"{'increase' if self.over_clamped else 'displacement'} at {where}{load}"
 
     @property
     def wanted(self) -> Array:
+        """(1,) displacement or increase to be met."""
         return np.array([self.value])
 
     def found(self, responses: Responses) -> Array:
+        """Displacement or increase of the model.
+
+        Parameters
+        ----------
+        responses : Responses
+            Responses of the model.
+
+        Returns
+        -------
+        (1,) array
+        """
         moved = self._displacement(responses.state(self.tower_top_load))
         if self.over_clamped:
             held = self._displacement(responses.state(self.tower_top_load, clamped=True))
@@ -165,10 +212,20 @@ class DeflectionTarget:
 
 @dataclass(frozen=True)
 class ShapeTarget:
-    """Mode shape at heights, in the mode's own direction (torsion: rotations), at any scale.
+    """Mode shape at given heights, in the mode's own direction (rotations for torsion).
 
-    The model's shape is scaled to fit best before it is compared, so that the scale of the values
-    does not matter; the uncertainty is one of their unit.
+    The model's shape is scaled to fit best before it is compared, so the scale of the values does
+    not matter.
+
+    Attributes
+    ----------
+    label : str
+        Label of the mode.
+    height : tuple of float, m
+    value : tuple of float
+        Shape at each height, of any scale.
+    uncertainty : float
+        One standard deviation, in the unit of the values.
     """
 
     label: str
@@ -182,18 +239,31 @@ class ShapeTarget:
         _check(self.name, self.uncertainty, *self.height, *self.value)
         if len(self.height) != len(self.value) or len(self.height) < 2 or not any(self.value):
             sizes = f"{len(self.height)} heights and {len(self.value)} values"
-            allowed = "two or more heights with a value each, not all zero"
-            raise InputError(f"target {self.name!r}", sizes, allowed, "Give one for each.")
+            allowed = "two heights or more, one value per height, not all zero"
+            raise InputError(f"target {self.name!r}", sizes, allowed, "Give one value per height.")
 
     @property
     def name(self) -> str:
+        """Short name."""
         return f"{self.label} shape"
 
     @property
     def wanted(self) -> Array:
+        """(k,) shape to be met."""
         return np.array(self.value)
 
     def found(self, responses: Responses) -> Array:
+        """Shape of the model, scaled to the wanted one.
+
+        Parameters
+        ----------
+        responses : Responses
+            Responses of the model.
+
+        Returns
+        -------
+        (k,) array
+        """
         result = responses.modes
         shape = result.shape[result.index(self.label), :, _SHOWN[result.direction(self.label)]]
         at = np.interp(self.height, result.height, shape)

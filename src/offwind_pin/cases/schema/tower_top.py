@@ -1,4 +1,4 @@
-"""The load at the tower top of a load case: files, the synthetic one, a running rotor."""
+"""The tower-top load of a load case: files, a synthetic load, or an operating rotor."""
 
 from __future__ import annotations
 
@@ -16,12 +16,13 @@ _OPENFAST_ONLY = ("channels", "frame", "azimuth_channel")
 
 
 class FileSettings(Definition):
-    """What is done to a load file.
+    """How a load file is read and changed.
 
-    channels : names by component, others being zero; by default all six of the frame
-    frame : where an OpenFAST file's load acts, and in which axes
-    factor, shift : the load is multiplied and comes later
-    subtract_weight : of rotor and nacelle, which loads on the yaw bearing hold
+    channels : names by component, the others zero; by default all six of the frame
+    frame : point and axes of an OpenFAST file's load
+    factor, shift : multiplier and delay of the load
+    subtract_weight : whether to remove the weight of rotor and nacelle, which yaw bearing loads
+    include
     """
 
     channels: Annotated[dict[Component, str], Field(min_length=1)] | None = None
@@ -34,14 +35,14 @@ class FileSettings(Definition):
     @model_validator(mode="after")
     def _means_something(self) -> FileSettings:
         if self.factor == 0:
-            raise ValueError("a factor of 0 leaves no load; leave tower_top_load out instead")
+            raise ValueError("a factor of 0 removes the load; leave tower_top_load out instead")
         if self.frame == "rotor_apex" and self.subtract_weight:
             raise ValueError(
-                "a load at the rotor_apex is aerodynamic and holds no weight; leave "
+                "a load at the rotor_apex is aerodynamic and does not include the weight; leave "
                 "subtract_weight out"
             )
         if self.frame == "yaw_bearing" and self.azimuth_channel is not None:
-            raise ValueError("azimuth_channel is for frame rotor_apex; leave it out")
+            raise ValueError("azimuth_channel applies to frame rotor_apex only; leave it out")
         return self
 
 
@@ -52,12 +53,12 @@ class LoadFile(FileSettings):
 
     @property
     def is_openfast(self) -> bool:
-        """By its name."""
+        """Whether the name is that of OpenFAST output."""
         return self.file.suffix.lower() in SUFFIXES
 
 
 class TowerTopLoadFile(FileSettings):
-    """Files of loads over time, which are added up.
+    """Files of loads over time, which are summed.
 
     Seven columns t, Fx, Fy, Fz, Mx, My, Mz, or OpenFAST's output where a file is named ``.out`` or
     ``.outb``.
@@ -70,9 +71,7 @@ class TowerTopLoadFile(FileSettings):
     @model_validator(mode="after")
     def _one_or_many(self) -> TowerTopLoadFile:
         if (self.file is None) == (len(self.files) == 0):
-            raise ValueError(
-                "the load is given twice or not at all; give either file, or a list of files"
-            )
+            raise ValueError("file and files are both given, or neither is; give one of them")
         if self.files:
             given = [
                 name
@@ -81,8 +80,8 @@ class TowerTopLoadFile(FileSettings):
             ]
             if given:
                 raise ValueError(
-                    f"{', '.join(given)} cannot be given beside files; give "
-                    f"{', '.join(given)} to each of them"
+                    f"{', '.join(given)} cannot be combined with files; set "
+                    f"{', '.join(given)} in each entry of files"
                 )
         for entry in self.entries:
             needless = [
@@ -90,8 +89,9 @@ class TowerTopLoadFile(FileSettings):
             ]
             if needless and not self.reads_openfast(entry):
                 raise ValueError(
-                    f"{entry.file} has seven columns; {', '.join(needless)} is for OpenFAST's "
-                    "output (.out, .outb, or kind openfast_output)"
+                    f"{', '.join(needless)} has no effect on {entry.file}, a file of seven "
+                    "columns; it applies to OpenFAST output (.out, .outb, or kind "
+                    "openfast_output)"
                 )
         return self
 
@@ -109,7 +109,7 @@ class TowerTopLoadFile(FileSettings):
 
 
 class OpenFastLoad(TowerTopLoadFile):
-    """The same, every file being OpenFAST's output whatever its name."""
+    """The same, with every file read as OpenFAST output whatever its name."""
 
     kind: Literal["openfast_output"]  # type: ignore[assignment]
 

@@ -11,7 +11,7 @@ from offwind_pin.base.definition import Array, Definition, NonNegative
 
 
 class DepthLine(Definition):
-    """Quantity that grows linearly with depth below the mudline: at_mudline + gradient * depth."""
+    """Quantity linear in the depth below the mudline: at_mudline + gradient * depth."""
 
     at_mudline: NonNegative = 0.0
     gradient: NonNegative = 0.0
@@ -38,10 +38,10 @@ class DepthTable(Definition):
         if len(self.depth) != len(self.values):
             raise ValueError(
                 f"depth_m has {len(self.depth)} entries and values {len(self.values)}; give one "
-                "value for each depth"
+                "value per depth"
             )
         if np.any(np.diff(self.depth) <= 0):
-            raise ValueError("depth_m must rise strictly; sort the table from the mudline down")
+            raise ValueError("depth_m must increase strictly; sort the table from the mudline down")
         if not any(self.values):
             raise ValueError("values are all zero; one of them must be positive")
         return self

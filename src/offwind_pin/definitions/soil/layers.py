@@ -1,7 +1,7 @@
 """Layered ground: each layer with a published family of p-y curves and its own parameters.
 
-Depths, of layer tops and of profiles within a layer, are counted from the original mudline,
-whatever the scour.
+Depths of layer tops and of profiles within a layer are measured from the original mudline, whatever
+the scour.
 """
 
 from __future__ import annotations
@@ -37,9 +37,17 @@ Loading = Literal["static", "cyclic"]
 
 
 class SoilLayer(Definition):
-    """A layer of the ground: base class of the package's and of a user's own.
+    """A layer of the ground: base class of the package's layers and of your own.
 
     A subclass adds its parameters, and a field ``model`` whose ``Literal`` is the name in files.
+
+    Attributes
+    ----------
+    model : str
+        Name of the kind of layer.
+    top : float, m
+        Depth of the top below the original mudline.
+    submerged_unit_weight : float, N/m3
     """
 
     model: str
@@ -49,7 +57,12 @@ class SoilLayer(Definition):
     )
 
     def check_loading(self, loading: Loading) -> None:
-        """Refuse a kind of loading that the layer's curves are not for.
+        """Reject a kind of loading to which the layer's curves do not apply.
+
+        Parameters
+        ----------
+        loading : Loading
+            Static or cyclic.
 
         Raises
         ------
@@ -61,8 +74,8 @@ class SoilLayer(Definition):
 class ApiSand(SoilLayer):
     """Sand of API RP 2GEO: p = A p_u tanh(k z y / (A p_u)).
 
-    ``initial_modulus`` is k, the rise of the initial modulus with depth; without it k follows from
-    the friction angle.
+    ``initial_modulus`` is k, the rate of increase of the initial modulus with depth; by default it
+    follows from the friction angle.
     """
 
     model: Literal["api_sand"]
@@ -96,15 +109,15 @@ class StiffClay(SoilLayer):
     def check_loading(self, loading: Loading) -> None:
         if (self.cycles is None) == (loading == "cyclic"):
             raise ValueError(
-                f"a stiff_clay layer with cycles = {self.cycles} under {loading} loading; cyclic "
-                "loading needs the number of cycles, static loading has none"
+                f"a stiff_clay layer has cycles = {self.cycles} under {loading} loading; give "
+                "cycles for cyclic loading, and leave it out for static loading"
             )
 
 
 class Pisa(SoilLayer):
     """Soil reactions of the PISA project, for monotonic loading of monopiles.
 
-    Clay takes the undrained shear strength, sand the relative density.
+    Clay requires the undrained shear strength, sand the relative density.
     """
 
     model: Literal["pisa"]
@@ -120,8 +133,8 @@ class Pisa(SoilLayer):
     def _complete(self) -> Pisa:
         if (self.calibration is None) == (self.parameters is None):
             raise ValueError(
-                "a pisa layer needs either calibration or parameters; give one of the two, of "
-                f"calibrations {', '.join(CALIBRATIONS)}"
+                "a pisa layer requires one of calibration and parameters; give one of them "
+                f"(calibrations: {', '.join(CALIBRATIONS)})"
             )
         needed, other = "undrained_shear_strength", "relative_density"
         if self.reactions.soil == "sand":
@@ -129,8 +142,8 @@ class Pisa(SoilLayer):
         if getattr(self, needed) is None or getattr(self, other) is not None:
             keys = {"undrained_shear_strength": "undrained_shear_strength_pa"}
             raise ValueError(
-                f"a pisa layer of {self.reactions.soil} takes {keys.get(needed, needed)} and not "
-                f"{keys.get(other, other)}; give the former only"
+                f"a pisa layer of {self.reactions.soil} requires {keys.get(needed, needed)} and "
+                f"not {keys.get(other, other)}; give the former only"
             )
         if self.undrained_shear_strength is not None:
             depth = self.top + _JUDGED_THICKNESS
@@ -140,8 +153,8 @@ class Pisa(SoilLayer):
     def check_loading(self, loading: Loading) -> None:
         if loading == "cyclic":
             raise ValueError(
-                "PISA's soil reactions are valid for monotonic loading, and loading is cyclic; set "
-                "loading: static, or use api_sand, matlock_clay or stiff_clay"
+                "PISA's soil reactions are valid for monotonic loading only, but loading is "
+                "cyclic; set loading: static, or use api_sand, matlock_clay or stiff_clay"
             )
 
     @property
@@ -153,11 +166,11 @@ class Pisa(SoilLayer):
 
 
 LAYER_KINDS: list[type[SoilLayer]] = [ApiSand, MatlockClay, StiffClay, Pisa]
-"""Kinds of layers that files and :class:`LayeredGround` accept; see ``register_layer``."""
+"""Kinds of layers accepted in files and :class:`LayeredGround`; see ``register_layer``."""
 
 
 class _OfKnownKind:
-    """Makes pydantic choose the class of a layer by its ``model``."""
+    """Selects the class of a layer by its ``model``."""
 
     def __get_pydantic_core_schema__(
         self, source: Any, handler: GetCoreSchemaHandler
@@ -172,7 +185,7 @@ def model_name(kind: type[SoilLayer]) -> str:
 
 
 class LayeredGround(Definition):
-    """p-y curves from the layers of the ground; exactly on a boundary the layer below holds."""
+    """p-y curves from soil layers; a depth on a boundary belongs to the layer below."""
 
     kind: Literal["layers"]
     loading: Loading
@@ -181,7 +194,7 @@ class LayeredGround(Definition):
     @model_validator(mode="after")
     def _layers_fit(self) -> LayeredGround:
         if not self.layers:
-            raise ValueError("there are no layers; give one at least, with top_m = 0")
+            raise ValueError("there are no layers; give at least one, with top_m = 0")
         tops = [layer.top for layer in self.layers]
         if tops[0] != 0:
             raise ValueError(
@@ -190,7 +203,7 @@ class LayeredGround(Definition):
             )
         if np.any(np.diff(tops) <= 0):
             raise ValueError(
-                f"top_m of the layers are {tops}; they must rise strictly, from the mudline down"
+                f"top_m of the layers are {tops}; they must increase strictly from the mudline down"
             )
         for layer in self.layers:
             layer.check_loading(self.loading)

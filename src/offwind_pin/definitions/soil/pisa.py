@@ -46,7 +46,7 @@ class PisaCoefficient(Definition):
         varies = any((self.slope, self.slope_by_density, self.amplitude))
         if varies and self.over is None:
             raise ValueError(
-                "the coefficient varies with a ratio that is not named; give over: z/D, z/L or L/D"
+                "the coefficient depends on a ratio that is not given; set over: z/D, z/L or L/D"
             )
         return self
 

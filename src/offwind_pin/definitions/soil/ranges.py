@@ -1,4 +1,4 @@
-"""Thresholds that tell a unit taken for another from ground that is merely unusual."""
+"""Thresholds that distinguish a wrong unit from merely unusual soil."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from offwind_pin.base.definition import Array
 from offwind_pin.definitions.soil.depth_profile import DepthLine, DepthTable
 
 LOOKED_AT = np.linspace(0.0, 50.0, 51)
-"""Depths in m at which a profile is judged."""
+"""Depths in m at which a profile is checked."""
 
 STRENGTH_PA = (1e3, 5e6)
 SKIN_FRICTION_PA = (1e3, 5e6)
@@ -23,17 +23,17 @@ RIGIDITY_INDEX = (20.0, 1e4)
 
 
 def check_strength(profile: DepthLine | DepthTable) -> DepthLine | DepthTable:
-    """An undrained shear strength that can be one in Pa.
+    """Check an undrained shear strength in Pa.
 
     Raises
     ------
     ValueError
-        It looks like kPa, or like no soil.
+        It looks like kPa, or is too large for soil.
     """
     largest = float(profile.at(LOOKED_AT).max())
     if largest < STRENGTH_PA[0]:
         raise ValueError(
-            f"an undrained shear strength that reaches {largest:g} Pa only looks like kPa; give Pa "
+            f"an undrained shear strength of at most {largest:g} Pa looks like kPa; give Pa "
             f"(1 kPa = 1000 Pa)"
         )
     if largest > STRENGTH_PA[1]:
@@ -45,35 +45,35 @@ def check_strength(profile: DepthLine | DepthTable) -> DepthLine | DepthTable:
 
 
 def check_skin_friction(profile: DepthLine | DepthTable) -> DepthLine | DepthTable:
-    """A unit shaft friction that can be one in Pa.
+    """Check a unit shaft friction in Pa.
 
     Raises
     ------
     ValueError
-        It looks like kPa, or is beyond any ground's.
+        It looks like kPa, or is too large for soil.
     """
     largest = float(profile.at(LOOKED_AT).max())
     low, high = SKIN_FRICTION_PA
     if not low <= largest <= high:
-        likely = "only looks like kPa" if largest < low else "is beyond any ground's"
+        likely = "looks like kPa" if largest < low else "is too large for soil"
         raise ValueError(
-            f"a skin friction that reaches {largest:g} Pa {likely}; give Pa (1 kPa = 1000 Pa)"
+            f"a skin friction of at most {largest:g} Pa {likely}; give Pa (1 kPa = 1000 Pa)"
         )
     return profile
 
 
 def check_shear_modulus(profile: DepthLine | DepthTable) -> DepthLine | DepthTable:
-    """A small-strain shear modulus that can be one in Pa.
+    """Check a small-strain shear modulus in Pa.
 
     Raises
     ------
     ValueError
-        It looks like kPa or MPa, or like no soil.
+        It looks like kPa or MPa, or is too large for soil.
     """
     largest = float(profile.at(LOOKED_AT).max())
     if largest < SHEAR_MODULUS_PA[0]:
         raise ValueError(
-            f"a small-strain shear modulus that reaches {largest:g} Pa only looks like kPa or MPa; "
+            f"a small-strain shear modulus of at most {largest:g} Pa looks like kPa or MPa; "
             "give Pa (1 MPa = 1e6 Pa)"
         )
     if largest > SHEAR_MODULUS_PA[1]:
@@ -85,7 +85,7 @@ def check_shear_modulus(profile: DepthLine | DepthTable) -> DepthLine | DepthTab
 
 
 def check_unit_weight(value: float) -> float:
-    """A submerged unit weight in N/m3.
+    """Check a submerged unit weight in N/m3.
 
     Raises
     ------
@@ -100,37 +100,38 @@ def check_unit_weight(value: float) -> float:
         )
     if value > high:
         raise ValueError(
-            f"a submerged unit weight of {value:g} N/m3 looks like the total one; subtract the "
-            "water's 10 kN/m3"
+            f"a submerged unit weight of {value:g} N/m3 looks like the total unit weight; subtract "
+            "10 kN/m3 for water"
         )
     return value
 
 
 def check_friction_angle(value: float) -> float:
-    """A friction angle in degrees.
+    """Check a friction angle in degrees.
 
     Raises
     ------
     ValueError
-        It looks like radians, or like no sand.
+        It looks like radians, or is outside the range of sand.
     """
     low, high = FRICTION_ANGLE_DEG
     if value <= math.pi / 2:
         raise ValueError(f"a friction angle of {value:g} deg looks like radians; give degrees")
     if not low <= value <= high:
         raise ValueError(
-            f"a friction angle of {value:g} deg is none of a sand; give {low:g} to {high:g} degrees"
+            f"a friction angle of {value:g} deg is outside the range of sand; give {low:g} to "
+            f"{high:g} degrees"
         )
     return value
 
 
 def check_strain_50(value: float) -> float:
-    """A strain at half the failure load, as a fraction.
+    """Check a strain at half the failure load, as a fraction.
 
     Raises
     ------
     ValueError
-        It looks like percent, or is far below what any clay shows.
+        It looks like percent, or is too small for clay.
     """
     low, high = STRAIN_50
     if value > high:
@@ -139,14 +140,14 @@ def check_strain_50(value: float) -> float:
         )
     if value < low:
         raise ValueError(
-            f"a strain_50 of {value:g} is below any clay's; give a fraction from 0.004 (hard) to "
+            f"a strain_50 of {value:g} is too small for clay; give a fraction from 0.004 (hard) to "
             "0.02 (soft)"
         )
     return value
 
 
 def check_relative_density(value: float) -> float:
-    """A relative density as a fraction.
+    """Check a relative density as a fraction.
 
     Raises
     ------
@@ -162,17 +163,17 @@ def check_relative_density(value: float) -> float:
 
 
 def check_rigidity(shear_modulus: Array, strength: Array) -> None:
-    """G0 and su that can belong to one clay; both at the same depths.
+    """Check that G0 and su, at the same depths, can belong to one clay.
 
     Raises
     ------
     ValueError
-        One of them is in another unit than the other.
+        Their units seem to differ.
     """
     low, high = RIGIDITY_INDEX
     ratio = float(shear_modulus.sum() / strength.sum()) if strength.any() else math.inf
     if not low <= ratio <= high:
         raise ValueError(
-            f"a ratio of shear modulus to undrained shear strength of {ratio:.3g} is none of a "
-            f"clay ({low:g} to {high:g}); give both in Pa"
+            f"a ratio of shear modulus to undrained shear strength of {ratio:.3g} is outside the "
+            f"range of clay ({low:g} to {high:g}); give both in Pa"
         )

@@ -9,12 +9,12 @@ from offwind_pin.definitions.turbine import Turbine
 
 
 def register_layer(kind: type[SoilLayer]) -> None:
-    """Let turbine files and :class:`LayeredGround` have layers of a kind.
+    """Register a kind of layer for turbine files and :class:`LayeredGround`.
 
     Raises
     ------
     InputError
-        Another kind has its name.
+        Another kind already has its name.
     """
     if kind in LAYER_KINDS:
         return

@@ -1,7 +1,7 @@
-"""The ground as foundations see it: springs at the mudline, or curves along the pile.
+"""Soil of a foundation: springs at the mudline, or curves along the pile.
 
-Depths of linear, tanh and tabulated curves are counted from the actual mudline, so that scour takes
-the weak top curves down with it; those of layers from the original one (see ``soil_layers``).
+Depths of linear, tanh and tabulated curves are measured from the actual mudline, so that scour
+moves the weak top curves down; those of layers from the original one (see ``layers``).
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from offwind_pin.definitions.soil.ranges import check_skin_friction
 class CoupledSprings(Definition):
     """6x6 stiffness of pile and soil at the mudline, order x, y, z, rx, ry, rz (N, m, rad).
 
-    It belongs to the unscoured mudline.
+    It refers to the unscoured mudline.
     """
 
     stiffness: tuple[Vector6, Vector6, Vector6, Vector6, Vector6, Vector6]
@@ -40,14 +40,14 @@ class CoupledSprings(Definition):
             raise ValueError("the 6x6 stiffness is not symmetric; give the same value at ij and ji")
         if np.linalg.eigvalsh(matrix)[0] <= 0:
             raise ValueError(
-                "the 6x6 stiffness is not positive definite, so that a motion is unresisted; "
-                "check the signs of the coupling terms (x-ry negative, y-rx positive)"
+                "the 6x6 stiffness is not positive definite; check the signs of the coupling terms "
+                "(x-ry negative, y-rx positive)"
             )
-        # A pile head turns the way that it is pushed: no pile has the opposite signs.
+        # A pile head rotates in the direction of the force: no pile has the opposite signs.
         if matrix[0, 4] > 0 or matrix[1, 3] < 0:
             raise ValueError(
                 f"coupling terms x-ry = {matrix[0, 4]:g} N and y-rx = {matrix[1, 3]:g} N would "
-                "turn the pile head against the force; make x-ry negative and y-rx positive"
+                "rotate the pile head against the force; make x-ry negative and y-rx positive"
             )
         return self
 
@@ -70,7 +70,7 @@ class TanhCurve(Definition):
 class CurveTable(Definition):
     """p-y curves by depth from a CSV file with columns ``depth_m, y_m, p_n_per_m``.
 
-    Across ``boundaries`` curves are not interpolated; a depth on a boundary belongs to the layer
+    Curves are not interpolated across ``boundaries``; a depth on a boundary belongs to the layer
     below.
     """
 
@@ -82,7 +82,7 @@ class CurveTable(Definition):
     def _boundaries_rise(self) -> CurveTable:
         if np.any(np.diff(self.boundaries) <= 0):
             raise ValueError(
-                f"boundaries_m are {list(self.boundaries)}; they must rise strictly, from the "
+                f"boundaries_m are {list(self.boundaries)}; they must increase strictly from the "
                 "mudline down"
             )
         return self
@@ -98,7 +98,7 @@ class ShaftTable(Definition):
 class _ShaftFriction(Definition):
     """Skin friction mobilised along the shaft, API RP 2GEO.
 
-    ``residual_ratio`` is what is left of the peak in clay past z = 0.02 D.
+    ``residual_ratio`` is the fraction of the peak that remains in clay beyond z = 0.02 D.
     """
 
     kind: Literal["api"]
@@ -112,8 +112,8 @@ class _ShaftFriction(Definition):
     def _residual_in_clay(self) -> _ShaftFriction:
         if (self.residual_ratio is None) == (self.soil == "clay"):
             raise ValueError(
-                f"residual_ratio is {self.residual_ratio} in {self.soil}; clay needs it (API: 0.7 "
-                "to 0.9), sand has none"
+                f"residual_ratio is {self.residual_ratio} in {self.soil}; give it for clay (API: "
+                "0.7 to 0.9), and leave it out for sand"
             )
         return self
 
@@ -145,7 +145,7 @@ class TorsionTable(Definition):
 
 
 class ApiTorsion(_ShaftFriction):
-    """The t-z curves of API RP 2GEO, turned: the wall moves by twist times radius."""
+    """The t-z curves of API RP 2GEO for torsion: the wall moves by twist times radius."""
 
 
 class LinearBearing(Definition):
@@ -174,7 +174,7 @@ class ApiBearing(Definition):
     """Q-z curve of API RP 2GEO; the end bearing acts on ``area``, or on pi D^2 / 4."""
 
     kind: Literal["api"]
-    # API's largest, 12 MPa in very dense sand, is 12000 in kPa.
+    # API's largest value, 12 MPa in very dense sand, is 12000 in kPa.
     end_bearing: Annotated[Positive, Field(ge=1.5e4, le=1e8)] = Field(alias="end_bearing_pa")
     area: Positive | None = Field(alias="area_m2", default=None)
 
@@ -201,10 +201,10 @@ class DampingCurve(Definition):
         if len(self.displacement) != len(self.factor):
             raise ValueError(
                 f"displacement_m has {len(self.displacement)} entries and factor "
-                f"{len(self.factor)}; give one factor for each displacement"
+                f"{len(self.factor)}; give one factor per displacement"
             )
         if np.any(np.diff(self.displacement) <= 0):
-            raise ValueError("displacement_m must rise strictly; sort the table")
+            raise ValueError("displacement_m must increase strictly; sort the table")
         return self
 
     def at(self, displacement: Array) -> Array:
@@ -215,10 +215,10 @@ class DampingCurve(Definition):
 
 
 class SoilDashpot(Definition):
-    """Dashpot beside each spring: C_s = K_s damping_factor / (pi load_frequency).
+    """Dashpot parallel to each spring: C_s = K_s damping_factor / (pi load_frequency).
 
-    K_s is the secant stiffness at the spring's displacement, or the initial one, which makes the
-    dashpot constant. The factor is a number, or varies with the displacement.
+    K_s is the secant stiffness at the spring's displacement, or the initial stiffness, which gives
+    a constant dashpot. The factor is a number, or varies with the displacement.
     """
 
     stiffness: Literal["secant", "initial"] = "secant"
@@ -234,22 +234,22 @@ class SoilDashpot(Definition):
     def _constant_is_constant(self) -> SoilDashpot:
         if self.stiffness == "initial" and isinstance(self.damping_factor, DampingCurve):
             raise ValueError(
-                "a dashpot of the initial stiffness is constant, and damping_factor varies with "
+                "a dashpot with stiffness: initial is constant, but damping_factor varies with "
                 "displacement; give a number, or stiffness: secant"
             )
         return self
 
 
 class Hysteresis(Definition):
-    """Each spring as parallel Iwan sliders, which follow its curve and Masing's rules."""
+    """Springs as parallel Iwan sliders, which follow the curves and Masing's rules."""
 
     sliders: Annotated[Integer, Field(ge=4, le=200)]
 
 
 class DistributedSprings(Definition):
-    """Springs along the pile: lateral at every node, others where they are given.
+    """Springs along the pile: lateral ones at every node, others optional.
 
-    Something must hold the pile vertically and in torsion: a stiffness at the toe or curves.
+    The pile must be restrained vertically and in torsion, by a stiffness at the toe or by curves.
     """
 
     nodes: Annotated[Integer, Field(ge=2, le=2000)]
@@ -264,19 +264,19 @@ class DistributedSprings(Definition):
     dashpot: SoilDashpot | None = None
     hysteretic: Hysteresis | None = None
     surrogate: str | None = Field(
-        default=None, description="why these curves stand in for the real ones; shown everywhere"
+        default=None, description="why these curves replace the real ones; shown everywhere"
     )
 
     @model_validator(mode="after")
     def _pile_is_held(self) -> DistributedSprings:
         if not self.toe_vertical_stiffness and self.vertical is None and self.toe_bearing is None:
             raise ValueError(
-                "nothing holds the pile vertically; give toe_vertical_stiffness_n_per_m, "
+                "nothing restrains the pile vertically; give toe_vertical_stiffness_n_per_m, "
                 "vertical or toe_bearing"
             )
         if not self.toe_torsional_stiffness and self.torsional is None:
             raise ValueError(
-                "nothing holds the pile in torsion; give toe_torsional_stiffness_nm_per_rad or "
+                "nothing restrains the pile in torsion; give toe_torsional_stiffness_nm_per_rad or "
                 "torsional"
             )
         return self
@@ -285,21 +285,22 @@ class DistributedSprings(Definition):
     def _damped_once(self) -> DistributedSprings:
         if self.hysteretic and self.dashpot and self.dashpot.stiffness == "secant":
             raise ValueError(
-                "hysteretic springs dissipate by themselves, and the secant dashpot would count "
-                "the same loss again; leave the dashpot out, or give it stiffness: initial"
+                "hysteretic springs dissipate energy themselves, and a secant dashpot would "
+                "count the same loss twice; leave the dashpot out, or give it stiffness: initial"
             )
         return self
 
 
 StiffnessSource = Literal["coupled_springs", "distributed_springs"]
-"""Where a stiffness at the mudline comes from: given, or condensed from the unloaded springs."""
+"""Source of a stiffness at the mudline: given, or condensed from the unloaded springs."""
 
 
 class ApparentFixity(Definition):
-    """A cantilever in place of pile and soil, of the same displacement and rotation at the mudline.
+    """A cantilever that replaces pile and soil, with equal displacement and rotation at the
+    mudline.
 
-    They are the same under a horizontal load at ``load_arm`` above the mudline, by default at the
-    yaw bearing. ``stiffness_from`` is by default the 6x6 if there is one.
+    They are equal under a horizontal load at ``load_arm`` above the mudline, by default at the yaw
+    bearing. ``stiffness_from`` is by default the 6x6, if given.
     """
 
     stiffness_from: StiffnessSource | None = None
@@ -307,12 +308,12 @@ class ApparentFixity(Definition):
 
 
 class MacroElementCalibration(Definition):
-    """A monotonic loading of the mudline that a macro-element of some yield surfaces follows.
+    """A monotonic loading of the mudline to which a macro-element is calibrated.
 
     It is a pushover of the distributed springs by a load at ``load_arm`` above the mudline, by
     default at the yaw bearing, up to ``until_displacement``, by default a tenth of the diameter.
-    Or it is read from a CSV ``file`` with columns ``horizontal_load_n, displacement_m,
-    rotation_rad``, whose moment is the load times the arm, and the 6x6 is that of coupled_springs.
+    Alternatively it is read from a CSV ``file`` with columns ``horizontal_load_n, displacement_m,
+    rotation_rad``; the moment is then the load times the arm, and the 6x6 that of coupled_springs.
     """
 
     surfaces: Annotated[Integer, Field(ge=5, le=200)] = 40
@@ -323,14 +324,12 @@ class MacroElementCalibration(Definition):
     @model_validator(mode="after")
     def _one_path(self) -> MacroElementCalibration:
         if self.file is not None and self.until_displacement is not None:
-            raise ValueError(
-                "file already says how far the loading goes; leave until_displacement_m out"
-            )
+            raise ValueError("until_displacement_m has no effect with file; leave it out")
         return self
 
 
 class Soil(Definition):
-    """Descriptions of the same ground, one for each foundation that needs one."""
+    """Descriptions of the same ground, one per kind of foundation."""
 
     coupled_springs: CoupledSprings | None = None
     distributed_springs: DistributedSprings | None = None

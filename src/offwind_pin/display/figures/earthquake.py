@@ -1,4 +1,4 @@
-"""An earthquake in pictures: its accelerogram, and its response spectrum with modes marked."""
+"""Figures of an earthquake: accelerogram, and response spectrum with modes marked."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _TICKS = (0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10)
 def response_spectrum_plot(earthquake: xr.Dataset) -> Figure:
     """Components of the accelerogram over time, and their pseudo-accelerations over period.
 
-    Components that are zero throughout are left out. Dashed lines are the structure's periods.
+    Components that are zero throughout are omitted. Dashed lines are the structure's periods.
 
     Parameters
     ----------
@@ -86,7 +86,7 @@ def _draw_spectrum(axes: Axes, earthquake: xr.Dataset, shown: list[int]) -> None
 
 
 def _mark_periods(axes: Axes, periods: Mapping[str, float]) -> None:
-    """A dashed line at each period, its name above the frame and apart from the others."""
+    """A dashed line at each period, with its name above the frame, without overlaps."""
     low, high = np.log(axes.get_xlim())
     wanted = [(np.log(period) - low) / (high - low) for period in periods.values()]
     places = spread(wanted, 0.062) if wanted else np.zeros(0)

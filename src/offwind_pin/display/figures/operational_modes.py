@@ -1,4 +1,4 @@
-"""Modes identified from accelerations: singular values, and shapes beside the computed ones."""
+"""Figures of modes identified from accelerations: singular values, and mode shapes."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from offwind_pin.display.figures.style import BLUE, FULL_WIDTH, MUTED, VERMILLIO
 from offwind_pin.signal.modal_identification.identify import OperationalModes
 
 _BAND = (0.05, 3.0)
-"""Hz that are shown."""
+"""End of the frequency axis in Hz."""
 
 
 @styled
 def identified_plot(data: xr.Dataset) -> Figure:
-    """Singular values over frequency, and the normalised shapes over height.
+    """Singular values over frequency, and normalised shapes over height.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ def identified_plot(data: xr.Dataset) -> Figure:
 
 @styled
 def singular_value_plot(modes: OperationalModes, highest: float | None = None) -> Figure:
-    """All singular values over frequency, the largest on top, with the modes found marked.
+    """All singular values over frequency, with the identified modes marked.
 
     highest : end of the frequency axis in Hz, by default three times the highest mode found
     """

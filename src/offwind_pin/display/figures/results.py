@@ -1,6 +1,6 @@
 """Figures of results: mode shapes, statics, time histories, spectra, section loads, soil curves.
 
-Every function returns a ``matplotlib.figure.Figure`` and leaves matplotlib's settings alone.
+Every function returns a ``matplotlib.figure.Figure`` and does not change matplotlib's settings.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ MEGA = 1e6
 _SHOWN_COMPONENT = {"FA": 0, "SS": 1, "V": 2, "T": 5}
 _MODES_PER_FAMILY = 3
 _COLUMNS = 900
-"""Columns of a time history's picture, about one for each pixel."""
+"""Number of columns of a time history's figure, about one per pixel."""
 
 _ZOOM = 60.0
 _BAND = "#f6ead0"
@@ -59,13 +59,12 @@ _HEIGHT_LABEL = "height z, m"
 
 @styled
 def mode_shapes(modes: ModalResult, mudline: float, *, water: float | None = 0.0) -> Figure:
-    """Unit-peak shapes over height, one panel for each family of modes.
+    """Unit-peak shapes over height, one panel per family of modes.
 
-    Up to three in each are the structure's, and up to three more those of tuned mass dampers.
+    Each panel shows up to three modes of the structure and up to three of tuned mass dampers. Dots
+    mark the peaks.
 
-    The dot is where a shape peaks.
-
-    mudline, water : heights in m of the ground and of the mean surface, None for no water
+    mudline, water : heights in m of the mudline and of the mean water surface, None if dry
     """
     direction = [modes.direction(label) for label in modes.label]
     families = [name for name in FAMILIES if name in direction]
@@ -103,9 +102,9 @@ def _shapes_of_family(axes: Axes, modes: ModalResult, members: list[int], compon
 
 @styled
 def statics(results: Mapping[str, StaticResult], *, water: float | None = 0.0) -> Figure:
-    """Deflected shape and fore-aft section moment over height, foundations side by side.
+    """Deflected shape and fore-aft section moment over height, by foundation.
 
-    results : by name of the foundation; water : height in m of the mean surface, None for no water
+    results : by name of the foundation; water : height in m of the mean water surface, None if dry
     """
     figure = Figure(figsize=(FULL_WIDTH, 4.9))
     shape, moment = figure.subplots(1, 2, sharey=True)
@@ -136,7 +135,7 @@ def statics(results: Mapping[str, StaticResult], *, water: float | None = 0.0) -
 
 
 def _tower_top_labels(axes: Axes, results: Mapping[str, StaticResult]) -> None:
-    """The displacement at the yaw bearing beside each curve's end, kept apart."""
+    """Labels of the displacement at the yaw bearing, without overlaps."""
     ends = [float(result.tower_top_displacement[0]) for result in results.values()]
     left, right = axes.get_xlim()
     span = right - left
@@ -159,8 +158,8 @@ def _tower_top_labels(axes: Axes, results: Mapping[str, StaticResult]) -> None:
 def time_histories(histories: xr.Dataset) -> Figure:
     """Thrust, wave elevation, tower-top displacement and mudline moment over time.
 
-    The ramp is shaded: it is not analysed. Cases longer than two minutes show their last minute
-    again, enlarged. Channels that are zero throughout are left out.
+    The ramp is shaded, since it is not analysed. Cases longer than two minutes also show their last
+    minute enlarged. Channels that are zero throughout are omitted.
     """
     time = np.asarray(histories.time.values, dtype=float)
     ramp = float(histories.attrs.get("ramp_s", 0.0))
@@ -204,7 +203,7 @@ class _Channel:
 
 
 def _channels(histories: xr.Dataset) -> list[_Channel]:
-    """Loads that act at all, and the response to them."""
+    """Applied loads, and the response to them."""
     thrust = histories.tower_top_load.sel(component="Fx").values / MEGA
     deflection = histories.tower_top_displacement.sel(direction="x").values
     moment = histories.mudline_moment.sel(direction="y").values / MEGA
@@ -251,7 +250,7 @@ def moment_psd(
     peaks: tuple[float, ...] = (),
     highest: float = 1.6,
 ) -> Figure:
-    """PSD of the mudline fore-aft moment on a logarithmic scale, with the frequencies that matter.
+    """PSD of the mudline fore-aft moment on a logarithmic scale, with frequencies marked.
 
     Parameters
     ----------
@@ -259,11 +258,11 @@ def moment_psd(
     density : (f,) array, (N m)^2/Hz
         One-sided.
     marked : mapping of str to float, Hz
-        Frequencies by name; modes (FA1, SS2, ...) and excitations are coloured apart.
+        Frequencies by name; modes (FA1, SS2, ...) and excitations have different colours.
     bands : tuple of (float, float), Hz
-        Low and high ends of the shaded bands.
+        Ends of the shaded bands.
     peaks : tuple of float, Hz
-        Frequencies of peaks found, drawn as dots on the curve.
+        Frequencies of peaks, drawn as dots on the curve.
     highest : float, Hz
         End of the frequency axis.
     """
@@ -301,7 +300,7 @@ def moment_psd(
 
 
 def _mark_frequencies(axes: Axes, marked: Mapping[str, float], highest: float) -> None:
-    """A dashed line at each frequency, its name above the frame and apart from the others."""
+    """A dashed line at each frequency, with its name above the frame, without overlaps."""
     names = sorted(marked, key=lambda name: marked[name])
     places = spread([marked[name] for name in names], 0.068 * highest)
     for name, place in zip(names, places, strict=True):
@@ -365,15 +364,15 @@ def section_load_envelope(histories: xr.Dataset) -> Figure:
 
 @styled
 def p_y_curves(data: xr.Dataset) -> Figure:
-    """p-y curves at five depths, closer together near the mudline where the pile moves most.
+    """p-y curves at five depths, denser near the mudline where the pile moves most.
 
-    Where displacements are known, the picture shows the part of the curves that was used, and the
-    dots on them are the largest displacement there.
+    If displacements are known, the figure shows the range of the curves that was used, with dots at
+    the largest displacements.
 
     Parameters
     ----------
     data : Dataset
-        Of :func:`offwind_pin.analysis.drawing_data.soil_dataset`.
+        Result of :func:`offwind_pin.analysis.drawing_data.soil_dataset`.
     """
     y, end = data["y"].to_numpy(), float(data.attrs["shown_end_m"])
     depth = data["depth"].to_numpy()

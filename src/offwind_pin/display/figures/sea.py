@@ -1,7 +1,7 @@
 """Figures of a sea and its loads: elevation, profiles over height, spectrum, force over height.
 
-Every function returns a ``matplotlib.figure.Figure`` and leaves matplotlib's settings alone. The
-numbers come from :mod:`offwind_pin.analysis.sea_data`.
+Every function returns a ``matplotlib.figure.Figure`` and does not change matplotlib's settings. The
+data are those of :mod:`offwind_pin.analysis.sea_data`.
 """
 
 from __future__ import annotations
@@ -39,25 +39,25 @@ from offwind_pin.display.wording import fixed
 KILO = 1e3
 _COLUMNS = 900
 ZOOM = 60.0
-"""s about the highest crest that are shown enlarged."""
+"""Length in s of the enlarged part around the highest crest."""
 _STYLES: tuple[tuple[str, Any], ...] = (
     (BLUE, "-"),
     (VERMILLION, (0, (6, 2))),
     (GREEN, (0, (2, 1.5))),
 )
 _NAMES = 0.3
-"""Of a panel's breadth, kept for the names of the levels."""
+"""Fraction of a panel's width for the names of the levels."""
 _TOTAL = "#8b93a1"
 _HEIGHT_LABEL = "height z, m"
 _WIDE_TITLE, _NARROW_TITLE = 85, 55
-"""Characters in a line above a panel of full width, and above one that has another beside it."""
+"""Characters per line above a panel of full width, and above one of half width."""
 
 
 @styled
 def surface_elevation(
     time: Array, elevation: Array, *, title: str = "", ramp: float = 0.0
 ) -> Figure:
-    """Surface over time with the highest crest after the ramp marked, and the minute around it.
+    """Surface elevation over time, with the highest crest after the ramp, and the minute around it.
 
     Parameters
     ----------
@@ -106,7 +106,7 @@ def surface_elevation(
 
 
 def highest_crest(time: Array, elevation: Array, ramp: float = 0.0) -> int:
-    """Place of the largest elevation after the ramp."""
+    """Index of the largest elevation after the ramp."""
     return int(np.argmax(np.where(time >= ramp, elevation, -np.inf)))
 
 
@@ -133,12 +133,12 @@ def kinematics(
 
     Parameters
     ----------
-    shown : sequence of PowerLaw or LogLaw
-        Up to three profiles, in that order.
+    shown : sequence of Profile
+        Up to three profiles in this order.
     along : (2,) array
-        Horizontal unit vector of the components that are drawn.
+        Horizontal unit vector of the plotted components.
     mudline, level : float, m
-        Heights of the ground, and of the mean surface.
+        Heights of the mudline and of the mean water surface.
     """
     figure = Figure(figsize=(FULL_WIDTH, 4.4))
     speed, push = figure.subplots(1, 2, sharey=True)
@@ -184,9 +184,9 @@ def elevation_spectrum(
     run : Spectrum or None
         Frequencies (f,) in Hz and densities (f,) in m2/Hz of the elevation in the run.
     components : Spectrum or None
-        The same of the generated waves, in bands.
+        The same for the generated waves, in bands.
     target : Spectrum or None
-        The same of the spectrum that the waves were generated from.
+        The same for the target spectrum.
     """
     figure = Figure(figsize=(FULL_WIDTH, 3.6))
     axes = figure.subplots()
@@ -228,16 +228,16 @@ def force_over_height(
     *,
     title: str = "",
 ) -> Figure:
-    """Force per length at one instant, in its parts, beside the envelope of the whole time.
+    """Force per length at one instant, by component, and its envelope over time.
 
     Parameters
     ----------
     worst : ForcePerLength
-        At one instant.
+        Forces at one instant.
     envelope : (array, array), N/m
-        Smallest and largest (n,).
+        Smallest and largest force (n,).
     mudline, level : float, m
-        Heights of the ground, and of the mean surface.
+        Heights of the mudline and of the mean water surface.
     """
     figure = Figure(figsize=(FULL_WIDTH, 4.4))
     instant, whole = figure.subplots(1, 2, sharey=True)
@@ -264,7 +264,7 @@ def force_over_height(
         axes.set_ylim(mudline - 0.02 * (top - mudline), top + 0.06 * (top - mudline))
         axes.set_xlabel("force of the water along the waves, kN/m")
         axes.grid(axis="x")
-    # the names of the levels stand on the side to which the force does not push
+    # the names of the levels are on the side opposite to the force
     left, right = instant.get_xlim()
     pushes = bool(x[np.abs(x).argmax()] > 0)
     room = _NAMES * (right - left)

@@ -1,4 +1,4 @@
-"""An undeformed structure that settles under gravity to its static state."""
+"""Figure of an undeformed structure that settles under gravity to its static state."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from offwind_pin.display.figures.style import (
 )
 
 _FIRST = 100.0
-"""s that the left panel shows: some ten periods of the first mode that matter."""
+"""End of the left panel in s, about ten periods of the first mode."""
 
 
 @styled
 def settling_plot(settling: xr.Dataset) -> Figure:
-    """The yaw bearing at first, and the distance of the whole structure from its static state."""
+    """Initial motion of the yaw bearing, and distance of the structure from its static state."""
     time = settling["time"].to_numpy()
     top = settling["tower_top_displacement"].sel(direction="x").to_numpy()
     difference = settling["difference"].to_numpy()

@@ -38,9 +38,9 @@ _CURVES = 10
 _DEPTHS = "viridis_r"
 """Light at the mudline, dark at the toe."""
 _PALEST = -0.15
-"""Depth over the toe's at which the colours begin: their first ones are too pale for lines."""
+"""Start of the colour map, since its first colours are too pale for lines."""
 _FURTHEST = 0.03
-"""End of the curves shown over the diameter where no state says how far they are used."""
+"""End of the plotted curves over the diameter if no state is known."""
 
 
 @styled
@@ -49,17 +49,17 @@ def curves_by_depth(
 ) -> Figure:
     """p-y curves at about ten depths, coloured by depth; dots are the displacements reached.
 
-    Without a state one panel goes to 3 % of the diameter. With one, a second panel shows the part
-    of the curves that it uses.
+    One panel extends to 3 % of the diameter; with a state, a second one shows the range that it
+    uses.
 
     Parameters
     ----------
     mudline : float, m
-        Height.
+        Height of the mudline.
     diameter : float, m
-        Of the pile.
+        Pile diameter.
     reached : (n,) array, m, optional
-        Lateral displacement of each node, or None.
+        Lateral displacement of each node.
     """
     depth = mudline - soil.height
     nodes = _shown_nodes(soil, depth)
@@ -83,7 +83,7 @@ def curves_by_depth(
 
 
 def _shown_nodes(soil: SoilSprings, depth: Array) -> list[int]:
-    """About evenly spaced nodes at which the soil resists, closer together near the mudline."""
+    """Roughly evenly spaced nodes with soil resistance, denser near the mudline."""
     wanted = depth[-1] * np.linspace(0, 1, _CURVES) ** 1.6
     resists = np.flatnonzero(soil.curves.secant(np.zeros(len(depth))) > 0)
     return sorted({int(resists[np.argmin(np.abs(depth[resists] - d))]) for d in wanted})
@@ -98,7 +98,7 @@ def _curves(
     end: float,
     reached: Array | None = None,
 ) -> float:
-    """Draw curves up to a displacement in m; the largest resistance reached in MN/m."""
+    """Draw curves up to a displacement in m; returns the largest resistance reached in MN/m."""
     y = np.linspace(0, end, 161)
     resistance = np.array([soil.curves.resistance(np.full(len(depth), value)) for value in y])
     used = 0.0
@@ -123,16 +123,16 @@ def _curves(
 def state_over_depth(
     depth: Array, displacement: Array, secant: Array, initial: Array, utilisation: Array
 ) -> Figure:
-    """Largest displacement, secant beside initial stiffness, and utilisation along the pile.
+    """Largest displacement, secant and initial stiffness, and utilisation along the pile.
 
     Parameters
     ----------
     depth : (n,) array, m
-        Below the mudline.
+        Depth below the mudline.
     displacement : (n,) array, m
     secant, initial : (n,) array, N/m2
     utilisation : (n,) array
-        Of the ultimate resistance, not a number where there is none.
+        Fraction of the ultimate resistance; NaN where there is none.
     """
     figure = Figure(figsize=(FULL_WIDTH, 4.4))
     panels = figure.subplots(1, 3, sharey=True)
@@ -158,7 +158,7 @@ def state_over_depth(
             color=VERMILLION,
         )
     else:
-        text = "these curves have no end"
+        text = "no ultimate resistance"
         panels[2].annotate(text, (0.5, 0.5), xycoords="axes fraction", ha="center")
     panels[0].set_ylabel("depth below the mudline, m")
     panels[0].set_ylim(float(depth[-1]), 0)
@@ -171,14 +171,14 @@ def state_over_depth(
 
 @styled
 def pushover_curves(push: Pushover, stiffness: Array, macro_element: Array | None = None) -> Figure:
-    """Load over displacement and moment over rotation at the mudline; load if it has no arm.
+    """Load over displacement and moment over rotation at the mudline; load for a zero arm.
 
     Parameters
     ----------
     stiffness : (6, 6) array
-        Of small motions, whose tangent line is drawn.
+        Stiffness for small motions, drawn as a tangent line.
     macro_element : (t, 2) array, optional
-        Load in N and rotation in rad at the same displacements, or None.
+        Load in N and rotation in rad at the same displacements.
     """
     figure = Figure(figsize=(FULL_WIDTH, 4.1))
     force, moment = figure.subplots(1, 2)
@@ -200,7 +200,7 @@ def pushover_curves(push: Pushover, stiffness: Array, macro_element: Array | Non
         top = 1.08 * float(y.max()) / MEGA
         axes.plot(
             [0, flexibility * top * MEGA / lever], [0, top], color=MUTED, lw=1.1,
-            ls=(0, (4, 2)), label=f"6{TIMES}6 of small motions", zorder=2,
+            ls=(0, (4, 2)), label=f"6{TIMES}6 for small motions", zorder=2,
         )  # fmt: skip
         axes.plot(x, y / MEGA, "o-", ms=3.5, color=BLUE, label="distributed springs", zorder=3)
         if macro_element is not None:
@@ -231,16 +231,16 @@ def by_amplitude_only(damping: xr.Dataset) -> bool:
 def damping_over_amplitude(
     damping: Mapping[str, xr.Dataset], chosen: str | None = None, reached: float | None = None
 ) -> Figure:
-    """Equivalent damping ratio over amplitude, one panel for each model, lines by frequency.
+    """Equivalent damping ratio over amplitude, one panel per model, one line per frequency.
 
     Parameters
     ----------
     damping : mapping of str to Dataset
-        By name of the model, from :func:`equivalent_damping`.
+        Results of :func:`equivalent_damping` by name of the model.
     chosen : str, optional
-        The model that the turbine has.
+        The turbine's model.
     reached : float, m, optional
-        Displacement that a state reaches there, marked by a line.
+        Displacement reached in a state, marked by a line.
     """
     width = max(4.6, FULL_WIDTH * len(damping) / 3)
     figure = Figure(figsize=(width, 3.9))

@@ -1,4 +1,4 @@
-"""The structure drawn to scale: section, elements, foundation, water and rotor-nacelle assembly."""
+"""Drawing of the structure to scale: section, elements, foundation, water, rotor and nacelle."""
 
 from __future__ import annotations
 
@@ -27,10 +27,10 @@ from offwind_pin.display.rotor_nacelle import rotor_nacelle
 from offwind_pin.display.wording import base_name, fixed, foundation_name
 
 _SIDES = (-44.0, 60.0)
-"""m shown on the windward side, and on the lee side where the labels stand."""
+"""m shown on the windward side, and on the leeward side, where the labels are."""
 
 _SHOWN_BLADE = 20.0
-"""m of blade that are drawn; whole blades would double the height of the picture."""
+"""Length of blade in m that is drawn; whole blades would double the height of the drawing."""
 
 _GROUND_LINE = "#8a6d3b"
 
@@ -40,13 +40,13 @@ def structure(data: xr.Dataset) -> Figure:
     """The structure in the plane of wind and waves, to scale.
 
     Section outline, element boundaries (lines across), foundation, mudline, mean water level,
-    rotor-nacelle assembly with its centre of mass, and the main heights. Distributed springs are
-    shown again in a panel with the embedded pile enlarged, one for each node.
+    rotor-nacelle assembly with its centre of mass, and the main heights. A second panel enlarges
+    the embedded pile with distributed springs, one per node.
 
     Parameters
     ----------
     data : Dataset
-        Of :func:`offwind_pin.analysis.drawing_data.structure_dataset`.
+        Result of :func:`offwind_pin.analysis.drawing_data.structure_dataset`.
     """
     springs = data["spring_height"].to_numpy() if "spring_height" in data else None
     base, top, mudline = _levels(data)
@@ -99,7 +99,7 @@ def _frame(axes: Axes, x: tuple[float, float], z: tuple[float, float]) -> None:
 
 
 def _surroundings(axes: Axes, data: xr.Dataset) -> None:
-    """Ground and water, as far as the picture goes."""
+    """Ground and water over the width of the drawing."""
     (left, right), (low, _) = axes.get_xlim(), axes.get_ylim()
     _, _, mudline = _levels(data)
     axes.axhspan(low, mudline, color=SOIL, lw=0, zorder=0)
@@ -162,7 +162,7 @@ def _rotor_nacelle(axes: Axes, data: xr.Dataset) -> None:
 
 
 def _blades(axes: Axes, rna: RotorNacelleRNA, top: float, apex: Array, shaft: Array) -> None:
-    """Hub, and the roots of the upright blade and of those that point down; the rest is cut."""
+    """Hub and blade roots; the blades are cut."""
     cone = np.radians(rna.precone)
     upright = np.array([-shaft[2], 0.0, shaft[0]])
     hub = np.array([apex[0], top + apex[2]])
@@ -206,7 +206,7 @@ def _foundation(axes: Axes, data: xr.Dataset, springs: Array | None, reach: floa
 
 
 def _springs(axes: Axes, height: Array, radius: float, reach: float) -> None:
-    """A spring at every node, on both sides of the pile, to a wall at the end."""
+    """A spring at every node on both sides of the pile, with a wall at its end."""
     spacing = abs(height[1] - height[0])
     along, across = _zigzag(radius, radius + reach, amplitude=0.3 * spacing)
     springs = [np.column_stack([s * along, z + across]) for z in height for s in (-1, 1)]
@@ -255,7 +255,7 @@ def _mudline_springs(axes: Axes, mudline: float, radius: float, name: str) -> No
 
 
 def _zigzag(start: float, end: float, amplitude: float) -> tuple[Array, Array]:
-    """A spring as a line: places along it, and offsets across it."""
+    """A spring as a line: positions along it, and offsets across it."""
     teeth = 6
     length = end - start
     along = start + length * np.concatenate(
@@ -267,7 +267,7 @@ def _zigzag(start: float, end: float, amplitude: float) -> tuple[Array, Array]:
 
 
 def _label_heights(axes: Axes, data: xr.Dataset) -> None:
-    """Main heights with their diameters at the right, kept apart."""
+    """Labels of main heights with diameters on the right, without overlaps."""
     base, top, mudline = _levels(data)
     labels = [(top, f"yaw bearing\nD {_diameter(data, top):.2f} m")]
     labels += [

@@ -1,4 +1,4 @@
-"""One look for all figures, and figures as SVG that an HTML page can hold."""
+"""Style of all figures, and figures as SVG for HTML pages."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ R = TypeVar("R")
 BLUE, VERMILLION, GREEN = "#0072B2", "#D55E00", "#009E73"
 ORANGE, PURPLE, SKY, INK = "#E69F00", "#CC79A7", "#56B4E9", "#1f2430"
 PALETTE = (BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY)
-"""Okabe and Ito's colours, told apart with any kind of colour vision."""
+"""Okabe and Ito's colours, distinguishable with any kind of colour vision."""
 
 MUTED, SOIL, WATER, STEEL = "#5d6573", "#efe6d6", "#e3f0f9", "#c9cfd6"
 FULL_WIDTH = 9.6
-"""Inches; a figure that fills the text column of the report."""
+"""Width in inches of a figure that fills the text column of the report."""
 
 _STYLE: Any = {
     "axes.edgecolor": MUTED,
@@ -55,7 +55,7 @@ _STYLE: Any = {
     "lines.linewidth": 1.5,
     "lines.solid_capstyle": "round",
     "text.color": INK,
-    # A name with a dollar sign is a name, not a formula.
+    # A dollar sign in a name does not start a formula.
     "text.parse_math": False,
     "xtick.color": MUTED,
     "xtick.labelcolor": INK,
@@ -67,7 +67,7 @@ _STYLE: Any = {
 
 
 def styled(draw: Callable[P, R]) -> Callable[P, R]:
-    """Draw in the project's style and leave matplotlib's own settings as they were."""
+    """Draw in the project's style without changing matplotlib's settings."""
 
     @functools.wraps(draw)
     def wrapper(*args: P.args, **kwargs: P.kwargs) -> R:
@@ -79,12 +79,12 @@ def styled(draw: Callable[P, R]) -> Callable[P, R]:
 
 @styled
 def to_svg(figure: Figure, name: str) -> str:
-    """An ``<svg>`` element for an HTML page, the same text for the same figure.
+    """An ``<svg>`` element for an HTML page, identical for identical figures.
 
-    Text stays text: smaller, searchable, and set in the page's own typeface. It is laid out in
-    DejaVu Sans, which is wider than what browsers usually have, so nothing collides.
+    Text stays text, so that it is small, searchable, and in the page's typeface. It is laid out in
+    DejaVu Sans, which is wider than usual browser fonts, so that nothing overlaps.
 
-    name : prefix of the ids that are referred to (others go), different for each figure of a page
+    name : prefix of referenced ids, different for each figure of a page; other ids are removed
     """
     buffer = StringIO()
     with mpl.rc_context({"svg.fonttype": "none", "svg.hashsalt": name}):
@@ -110,16 +110,16 @@ def to_svg(figure: Figure, name: str) -> str:
 
 @styled
 def save_figure(figure: Figure, path: Path) -> None:
-    """Write a figure in the format of the path's ending, the same file for the same figure."""
+    """Write a figure in the format of the path's suffix, identical for identical figures."""
     dates = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
     with mpl.rc_context({"svg.hashsalt": path.suffix}):
         figure.savefig(path, dpi=200, metadata=dates.get(path.suffix.lower()))
 
 
 def spread(wanted: Sequence[float], width: float) -> Array:
-    """(n,) places as near as possible to the wanted ones, at least a width apart, order kept.
+    """(n,) positions as close as possible to the wanted ones, in order, at least a width apart.
 
-    Least squares by pooling neighbours that would collide.
+    Least squares by pooling neighbours that would overlap.
     """
     order = np.argsort(wanted, kind="stable")
     groups: list[tuple[float, int]] = []
@@ -136,9 +136,9 @@ def spread(wanted: Sequence[float], width: float) -> Array:
 
 
 def thin(time: Array, values: Array, columns: int) -> tuple[Array, Array]:
-    """At most two samples for each column of a picture: its smallest and its largest.
+    """At most two samples per column of a figure: the smallest and the largest.
 
-    No extreme is lost, and a long history stays a small picture.
+    This keeps all extremes, and the figure of a long history small.
     """
     size = -(-len(values) // columns)
     if size <= 2:
@@ -155,7 +155,7 @@ def thin(time: Array, values: Array, columns: int) -> tuple[Array, Array]:
 
 
 def powers_of_ten(value: float, _: int | None = None) -> str:
-    """10 with a raised exponent, in plain characters."""
+    """Power of ten with a superscript exponent."""
     exponent = round(np.log10(value))
     return "10" + str(exponent).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
 
@@ -170,9 +170,9 @@ def mark_levels(
     water: float | None,
     named: Literal["left", "right"] | None = None,
 ) -> None:
-    """Ground, mudline and water level behind curves over height, named on one side or not.
+    """Ground, mudline and water level behind curves over height, optionally with names.
 
-    water : height in m of the mean surface, or None for a dry structure
+    water : height in m of the mean water surface, or None for a dry structure
     """
     low = axes.get_ylim()[0]
     if low < mudline:

@@ -1,4 +1,4 @@
-"""A case as one self-contained HTML page, made from its results alone."""
+"""Report of a case as a self-contained HTML page, from its results alone."""
 
 from __future__ import annotations
 
@@ -41,9 +41,9 @@ SECTIONS = {
     "solver": "Solver",
     "provenance": "Provenance",
 }
-"""Sections in their order; those without data are left out."""
+"""Sections in order; those without data are omitted."""
 _MORE_TITLES = {"settling": "Settling to the static state in time"}
-"""Of figures that share a section with another one."""
+"""Titles of figures that share a section with another one."""
 
 
 def render_report(tree: xr.DataTree, summary: Mapping[str, Any]) -> str:
@@ -75,7 +75,7 @@ def render_report(tree: xr.DataTree, summary: Mapping[str, Any]) -> str:
 
 
 def _tables(report: CaseReport) -> dict[str, Any]:
-    """What each section shows besides its figure; empty where the section has no content."""
+    """Content of each section besides its figure; empty for a section without content."""
     damping = report.part("structural_damping")
     return {
         "surrogates": tables.surrogates(report),
@@ -110,13 +110,13 @@ def _tables(report: CaseReport) -> dict[str, Any]:
 
 
 def _pictures(report: CaseReport, sea: list[SeaPicture]) -> dict[str, Markup]:
-    """SVG by the section that it belongs to; matplotlib has escaped the names in it."""
+    """SVG by section; matplotlib has escaped the names in it."""
     figures = _figures(report) | {picture.name: picture.figure for picture in sea}
     return {name: Markup(to_svg(figure, name)) for name, figure in figures.items()}  # noqa: S704
 
 
 def _figures(report: CaseReport) -> dict[str, Figure]:
-    """Figures by the section that they belong to."""
+    """Figures by section."""
     mudline, water = float(report.structure.attrs["mudline_m"]), report.water_level
     figures = {"structure": plots.structure(report.structure)}
     if report.modes is not None:

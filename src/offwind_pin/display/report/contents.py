@@ -1,4 +1,4 @@
-"""What a report reads of the results of a case."""
+"""Results of a case as used in a report."""
 
 from __future__ import annotations
 
@@ -23,15 +23,15 @@ class Published:
     Attributes
     ----------
     quantity : str
-        In plain words.
+        Description of the quantity.
     value : float
         Published value.
     unit : str
         Its unit; empty for a dimensionless number.
     source : str
-        Where it is printed.
+        Publication.
     ours : float or None
-        The same quantity from this case, or None where it was not computed.
+        Computed value, or None if it was not computed.
     mode : str or None
         Label of the mode whose frequency in Hz it is, for the table of modes; a quantity named like
         a mode ("FA1" or "first fore-aft") is put there without it.
@@ -46,7 +46,7 @@ class Published:
 
 
 class CaseReport:
-    """The parts of a case's results; a part that is missing leaves its section out.
+    """Parts of a case's results; a section without its part is omitted.
 
     Parameters
     ----------
@@ -96,7 +96,7 @@ class CaseReport:
 
     @property
     def water_level(self) -> float | None:
-        """Height of the mean surface in m; None for a dry structure."""
+        """Height of the mean water surface in m; None for a dry structure."""
         return float(self.structure.attrs["water_level_m"]) if self.wet else None
 
     @cached_property
@@ -106,7 +106,7 @@ class CaseReport:
 
     @cached_property
     def statics(self) -> dict[str, StaticResult]:
-        """Static states by foundation, the clamped one first: the others are compared with it."""
+        """Static states by foundation, the clamped one first, as a reference for the others."""
         states = {
             str(data.attrs["foundation"]): StaticResult.from_dataset(data)
             for data in parts(self.tree, "static")
@@ -119,7 +119,7 @@ class CaseReport:
 
     @cached_property
     def analysed(self) -> xr.Dataset | None:
-        """The histories after the ramp, or None where fewer than two samples are left."""
+        """The histories after the ramp, or None with fewer than two samples."""
         if self.histories is None:
             return None
         rest = analysed(self.histories)
@@ -144,6 +144,6 @@ class CaseReport:
         )
 
     def _computed(self, key: str) -> float | None:
-        """A number of the summary; None where there is none of that key."""
+        """A number of the summary, or None."""
         value = self.summary.get(key)
         return float(value) if isinstance(value, int | float) else None

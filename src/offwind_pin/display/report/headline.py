@@ -1,4 +1,4 @@
-"""What a report says first: the outcome in a few sentences, and up to four key numbers."""
+"""Headline of a report: the outcome in a few sentences, and up to four key figures."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ if TYPE_CHECKING:
 _STOPPED = {"failed": "failed", "interrupted": "was interrupted"}
 
 CLOSE = 0.02
-"""Relative difference from a published value that the headline calls close."""
+"""Relative difference from a published value that counts as agreement in the headline."""
 
 
 @dataclass(frozen=True)
 class Card:
-    """One key number with its unit and what it is."""
+    """A key figure with unit and meaning."""
 
     value: str
     unit: str
@@ -39,7 +39,7 @@ class Card:
 
 
 def headline(report: CaseReport) -> list[str]:
-    """The outcome in a few sentences, the most telling first."""
+    """The outcome in a few sentences, the most important first."""
     said = [
         _status_sentence(report),
         *_history_sentences(report),
@@ -52,7 +52,7 @@ def headline(report: CaseReport) -> list[str]:
 
 
 def cards(report: CaseReport) -> list[Card]:
-    """Up to four key numbers, those of the richest analysis of the case."""
+    """Up to four key figures of the most detailed analysis of the case."""
     chosen = [
         *_history_cards(report),
         *_spectrum_cards(report.spectrum),

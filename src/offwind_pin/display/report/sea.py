@@ -1,4 +1,4 @@
-"""The section of a report about the sea and its forces on the structure."""
+"""Report section on the sea and its forces on the structure."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _STRETCHING = {
 
 @dataclass(frozen=True, eq=False)
 class SeaPicture:
-    """A figure, its name in the page, its title for those who cannot see it, and its caption."""
+    """A figure with its name in the page, its title as alternative text, and its caption."""
 
     name: str
     title: str
@@ -36,7 +36,7 @@ class SeaPicture:
 
 
 def sea_pictures(report: CaseReport) -> list[SeaPicture]:
-    """Elevation, profiles, spectrum and forces of a time history in waves; else nothing."""
+    """Elevation, profiles, spectrum and forces of a time history in waves, if any."""
     waves, whole, data = report.part("waves"), report.histories, report.analysed
     if waves is None or whole is None or data is None or "velocity" not in waves:
         return []
@@ -67,7 +67,7 @@ def _kinematics(waves: xr.Dataset) -> SeaPicture:
     crest, along = float(waves.attrs["crest_s"]), _along(waves)
     reach = _STRETCHING[str(waves.attrs["stretching"])]
     if waves.attrs["exact_surface"]:
-        reach = "by the theory of the wave up to its surface"
+        reach = "by the wave's theory up to its surface"
     current = ""
     if bool((waves["current"] != 0).any()):
         current = " The velocity includes the current."
@@ -117,7 +117,7 @@ def _forces(waves: xr.Dataset) -> SeaPicture:
 
 
 def _levels(waves: xr.Dataset) -> tuple[float, float]:
-    """Heights of mudline and mean surface in m."""
+    """Heights of mudline and mean water surface in m."""
     return float(waves.attrs["mudline_m"]), float(waves.attrs["water_level_m"])
 
 

@@ -1,4 +1,4 @@
-"""The soil of a turbine as files: page, JSON, curves as CSV, and the 6x6 for other codes."""
+"""Soil of a turbine as files: page, JSON, curves as CSV, and 6x6 files for other programs."""
 
 from __future__ import annotations
 
@@ -17,10 +17,16 @@ _OTHER = ("spring", "depth_m", "deflection", "deflection_unit", "resistance", "r
 
 
 def write_soil(soil: SoilOverview, directory: Path) -> list[Path]:
-    """Write everything, each file whole or not at all.
+    """Write page, JSON, curves and 6x6 files, each file atomically.
 
-    ``p_y_curves.csv`` is what a turbine's ``curve: {kind: table}`` reads: between its points the
-    resistance is linear, and past the last one constant.
+    ``p_y_curves.csv`` can be used for ``curve: {kind: table}`` of a turbine: the resistance is
+    linear between its points, and constant beyond the last one.
+
+    Parameters
+    ----------
+    soil : SoilOverview
+    directory : Path
+        Created if necessary.
 
     Returns
     -------
@@ -49,7 +55,7 @@ def write_soil(soil: SoilOverview, directory: Path) -> list[Path]:
 
 
 def _csv(columns: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
-    """Numbers with all their digits, so that reading gives back the same."""
+    """Numbers with all digits, so that reading recovers them exactly."""
     text = StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(columns)

@@ -1,4 +1,4 @@
-"""The soil of a turbine as one self-contained HTML page, in the look of the reports."""
+"""Soil of a turbine as a self-contained HTML page, in the style of the reports."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 MEGA = 1e6
 STIFFNESS_NAMES = {
     "tangent_unloaded": "Tangent, unloaded",
-    "tangent_loaded": "Tangent, under the load",
-    "secant_loaded": "Secant, under the load",
+    "tangent_loaded": "Tangent, under load",
+    "secant_loaded": "Secant, under load",
 }
 _DAMPING_COLUMNS = {
     "secant_dashpot": "Secant",
@@ -31,7 +31,7 @@ _DAMPING_COLUMNS = {
 }
 _SPRING_NAMES = {
     "soil_rocking": "rotation of the sections",
-    "soil_friction": "rotation, by the lateral resistance",
+    "soil_friction": "rotation, by friction",
     "soil_base_shear": "shear at the toe",
     "soil_base_moment": "moment at the toe",
     "soil_bearing": "end bearing",
@@ -39,10 +39,10 @@ _SPRING_NAMES = {
     "soil_torsion": "torsion",
 }
 _ROWS = 26
-"""Nodes that the table shows at most."""
+"""Largest number of nodes in the table."""
 _SHOWN_AMPLITUDES = 7
 _NEGLIGIBLE = 1e-6
-"""Of an entry ij over the root of ii times jj."""
+"""Entry ij over the root of ii times jj below which it is shown as zero."""
 
 
 def render_soil_page(soil: SoilOverview) -> str:
@@ -93,7 +93,7 @@ def render_soil_page(soil: SoilOverview) -> str:
 
 
 def figures(soil: SoilOverview) -> dict[str, Figure]:
-    """Figures by the section that holds them."""
+    """Figures by section."""
     lateral, state = soil.lateral, soil.state
     reached = None if state is None else state.displacement
     made = {
@@ -118,7 +118,7 @@ def figures(soil: SoilOverview) -> dict[str, Figure]:
 
 
 def soil_tables(soil: SoilOverview) -> list[tuple[str, list[str], list[list[str]]]]:
-    """Titles, headings and rows of the same for a terminal."""
+    """Titles, headings and rows of the tables for a terminal."""
     nodes = ["depth, m", "z, m", "D, m", "length, m", "curve", "initial, MN/m²", "ultimate, MN/m"]
     if soil.state is not None:
         nodes += ["y, mm", "secant, MN/m²", "utilised, %"]
@@ -144,7 +144,7 @@ def soil_tables(soil: SoilOverview) -> list[tuple[str, list[str], list[list[str]
 
 
 def node_rows(soil: SoilOverview) -> list[list[str]]:
-    """Cells of the table of nodes, thinned evenly where there are many."""
+    """Cells of the table of nodes, evenly thinned if there are many."""
     step = _node_step(soil)
     shown = sorted({*range(0, len(soil.depth), step), len(soil.depth) - 1})
     nodes = soil.nodes()
@@ -171,12 +171,13 @@ def node_rows(soil: SoilOverview) -> list[list[str]]:
 
 
 def _node_step(soil: SoilOverview) -> int:
-    """Nodes from one row of the table to the next."""
+    """Number of nodes from one row of the table to the next."""
     return -(-(len(soil.depth) - 1) // (_ROWS - 1))
 
 
 def other_rows(soil: SoilOverview) -> list[list[str]]:
-    """Name, nodes, ranges of initial stiffness and ultimate, and unit; all but lateral springs."""
+    """Name, nodes, ranges of initial stiffness and ultimate resistance, and unit of other
+    springs."""
     rows = []
     for load in soil.as_dict()["other_springs"]:
         ultimate = [value for value in load["ultimate"] if value is not None]
@@ -200,7 +201,7 @@ def other_rows(soil: SoilOverview) -> list[list[str]]:
 
 
 def pushover_facts(soil: SoilOverview) -> list[tuple[str, str]]:
-    """Where the pushover ended."""
+    """State at the end of the pushover."""
     push = soil.pushover
     facts = [
         ("largest load", quantity(push.load[-1] / MEGA, "MN")),
@@ -218,14 +219,14 @@ def pushover_facts(soil: SoilOverview) -> list[tuple[str, str]]:
 
 
 def matrix_rows(matrix: Array) -> list[list[str]]:
-    """Cells of a 6x6 in MN, m and rad; what is negligible beside the diagonal counts as zero."""
+    """Cells of a 6x6 in MN, m and rad; entries negligible against the diagonal are zero."""
     size = np.sqrt(np.abs(np.diag(matrix)))
     kept = np.where(np.abs(matrix) < _NEGLIGIBLE * np.outer(size, size), 0.0, matrix)
     return [[number(value / MEGA, 5) for value in row] for row in kept]
 
 
 def fixity_facts(fixity: Fixity | None) -> list[tuple[str, str]]:
-    """The cantilever, and its stiffness beside the 6x6's."""
+    """The cantilever, and its stiffness compared with the 6x6."""
     if fixity is None:
         return []
     off = 100 * fixity.difference
@@ -234,7 +235,7 @@ def fixity_facts(fixity: Fixity | None) -> list[tuple[str, str]]:
         ("bending stiffness EI", quantity(fixity.bending_stiffness / 1e9, "GN m²")),
         ("exact for a load at", f"{quantity(fixity.load_arm, 'm')} above the mudline"),
         *(
-            (f"stiffness {place} over the 6{TIMES}6's", f"{fixed(value, 1, sign=True)} %")
+            (f"stiffness {place} relative to the 6{TIMES}6", f"{fixed(value, 1, sign=True)} %")
             for place, value in (("x, x", off[0, 0]), ("x, ry", off[0, 1]), ("ry, ry", off[1, 1]))
         ),
     ]

@@ -1,4 +1,4 @@
-"""The rows of a report's tables."""
+"""Rows of a report's tables."""
 
 from __future__ import annotations
 
@@ -31,9 +31,9 @@ if TYPE_CHECKING:
     from offwind_pin.signal.moment_spectrum import MomentSpectrum
 
 _ROUNDING = 1e-12
-"""Of the largest value with the same unit, below which a value is shown as zero."""
+"""Fraction of the largest value with the same unit below which a value is shown as zero."""
 _BAR = 0.10
-"""Relative difference at which the bars in the table of published values end."""
+"""Relative difference at the end of the bars in the table of published values."""
 
 _DESCRIPTIVE = {
     "title",
@@ -71,7 +71,7 @@ _SLIDES = {"fore_aft": "fore-aft", "side_side": "side-side", "both": "both ways"
 
 @dataclass(frozen=True)
 class Surrogate:
-    """What is replaced, why, and how to give the real data."""
+    """Replaced data, reason, and how to provide the real data."""
 
     what: str
     why: str
@@ -80,7 +80,7 @@ class Surrogate:
 
 @dataclass(frozen=True)
 class PublishedRow:
-    """A published value and the computed one; bar from -1 to 1, or None without the latter."""
+    """A published and the computed value; bar from -1 to 1, or None without the latter."""
 
     published: Published
     ours: str
@@ -90,7 +90,7 @@ class PublishedRow:
 
 @dataclass(frozen=True)
 class ModeRow:
-    """A mode as the table shows it; published joins the values printed for it, in Hz."""
+    """A mode in the table; published joins its published frequencies in Hz."""
 
     label: str
     name: str
@@ -104,20 +104,21 @@ class ModeRow:
 
 
 def surrogates(report: CaseReport) -> list[Surrogate]:
-    """Everything that replaces data that are not available."""
+    """Replacements for data that are not available."""
     found = []
     soil = str(report.structure.attrs["surrogate"])
     if soil:
         remedy = (
-            "put the real p-y curves into a CSV table (depth_m, y_m, p_n_per_m) and name it in "
+            "provide the real p-y curves as a CSV table (depth_m, y_m, p_n_per_m) "
+            "in the turbine file."
         )
-        found.append(Surrogate("The soil", soil, remedy + "the turbine file."))
+        found.append(Surrogate("Soil", soil, remedy))
     attributes = {} if report.histories is None else report.histories.attrs
     found += [
         Surrogate(
-            "The load at the tower top",
+            "Tower-top load",
             sentence(text),
-            "give the real history as seven columns: t, Fx, Fy, Fz, Mx, My, Mz in s, N and N m.",
+            "provide the real history as seven columns: t, Fx, Fy, Fz, Mx, My, Mz in s, N and N m.",
         )
         for text in surrogate_notes(attributes)
         if text != soil
@@ -144,8 +145,9 @@ def statistics(report: CaseReport) -> list[tuple[str, str, list[float]]]:
     if "tuned_mass_displacement" in data:
         for name in data["damper"].to_numpy():
             for axis in data["across"].to_numpy():
-                slip = data.tuned_mass_displacement.sel(damper=name, across=axis)
-                rows.append((f"tuned mass {name} relative to its carrier along {axis}", "m", slip))
+                stroke = data.tuned_mass_displacement.sel(damper=name, across=axis)
+                if bool((stroke != 0).any()):  # it may slide in one direction only
+                    rows.append((f"stroke of tuned mass {name} along {axis}", "m", stroke))
     found = [
         (name, unit, [float(v) for v in (x.mean(), x.std(), x.min(), x.max())])
         for name, unit, x in rows
@@ -181,7 +183,7 @@ def published_rows(report: CaseReport) -> list[PublishedRow]:
 
 
 def structure_facts(report: CaseReport) -> list[tuple[str, str]]:
-    """Name and value with its unit, the numbers an engineer asks for first."""
+    """Names and values of the main dimensions and masses."""
     data = report.structure
     about = data.attrs
     mudline, base, top = (float(about[f"{name}_m"]) for name in ("mudline", "base", "yaw_bearing"))
@@ -211,7 +213,7 @@ def structure_facts(report: CaseReport) -> list[tuple[str, str]]:
 
 
 def _tuned_masses(data: xr.Dataset) -> list[tuple[str, str]]:
-    """A line about each tuned mass damper."""
+    """One line per tuned mass damper."""
     if "damper" not in data.dims:
         return []
     dampers = (data.sel(damper=name) for name in data["damper"].to_numpy())
@@ -228,7 +230,7 @@ def _tuned_masses(data: xr.Dataset) -> list[tuple[str, str]]:
 
 
 def _realised_waves(facts: Mapping[str, Any]) -> list[tuple[str, str]]:
-    """One line about the waves as realised, none without waves."""
+    """One line on the realised waves, if any."""
     if not facts:
         return []
     values = []
@@ -272,14 +274,14 @@ def mode_rows(report: CaseReport) -> list[ModeRow]:
 
 
 def _is_frequency_of(row: Published, label: str) -> bool:
-    """A published frequency belongs to the mode it names, by label or in the same plain words."""
+    """Whether a published frequency is that of a mode, by label or by name."""
     if row.mode is not None:
         return row.mode == label
     return row.unit == "Hz" and row.quantity in (label, mode_name(label))
 
 
 def wind_facts(wind: xr.Dataset | None) -> dict[str, Any]:
-    """Numbers of the derivation of a synthetic load by name, its harmonics among them."""
+    """Derivation of a synthetic load by name, including harmonics."""
     if wind is None:
         return {}
     scalars = {str(name): float(data) for name, data in wind.data_vars.items() if not data.dims}
@@ -292,7 +294,7 @@ def wind_facts(wind: xr.Dataset | None) -> dict[str, Any]:
 
 
 def rotor_facts(rotor: xr.Dataset | None) -> list[tuple[str, str]]:
-    """Name and value of the operating point of a rotor."""
+    """Names and values of the operating point of a rotor."""
     if rotor is None:
         return []
     control = str(rotor.attrs["control"])
@@ -320,7 +322,7 @@ def rotor_facts(rotor: xr.Dataset | None) -> list[tuple[str, str]]:
 
 
 def earthquake_facts(earthquake: xr.Dataset | None) -> list[tuple[str, str]]:
-    """Name and value of the strength of an earthquake and its origin."""
+    """Names and values of the strength of an earthquake, and its origin."""
     if earthquake is None:
         return []
 
@@ -340,7 +342,7 @@ def earthquake_facts(earthquake: xr.Dataset | None) -> list[tuple[str, str]]:
 
 
 def identified_facts(data: xr.Dataset | None) -> dict[str, Any]:
-    """The record of an operational modal analysis, and cautions about it."""
+    """Record of an operational modal analysis, and cautions about it."""
     if data is None:
         return {}
     return {
@@ -352,7 +354,7 @@ def identified_facts(data: xr.Dataset | None) -> dict[str, Any]:
 
 
 def psd_rows(spectrum: MomentSpectrum | None) -> list[tuple[str, float, float | None]]:
-    """Marked name, its frequency, and the nearest peak found, by rising frequency."""
+    """Name, frequency and nearest peak of each marked frequency, in order of frequency."""
     if spectrum is None:
         return []
     marked = sorted(spectrum.marked.items(), key=lambda item: item[1])
@@ -372,7 +374,7 @@ def damping_rows(data: xr.Dataset | None) -> list[tuple[str, float, float]]:
 
 
 def solver_account(report: CaseReport) -> list[tuple[str, str]]:
-    """Account of the solver, name and value."""
+    """Names and values of solver statistics."""
     rows: list[tuple[str, str]] = []
     data, summary = report.histories, report.summary
     if data is not None:
@@ -413,7 +415,7 @@ def solver_account(report: CaseReport) -> list[tuple[str, str]]:
 
 
 def provenance(report: CaseReport) -> list[tuple[str, str]]:
-    """Versions, seeds, settings and the hash of the definition."""
+    """Versions, seeds, settings, and hash of the definition."""
     about = report.structure.attrs
     names = ("turbine", "definition_sha256", "foundation", "elements")
     known: dict[str, Any] = {name: about[name] for name in names}

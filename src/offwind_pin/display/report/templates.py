@@ -1,4 +1,4 @@
-"""What the pages share: one environment for their templates, with the filters that they use."""
+"""Template environment of the pages, with its filters."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ POLICY = (
 
 
 def environment() -> Environment:
-    """Templates of pages; whatever goes into them is escaped, and nothing may be missing."""
+    """Templates of pages; all values are escaped, and a missing value is an error."""
     made = Environment(
         loader=PackageLoader("offwind_pin.display"),
         autoescape=True,

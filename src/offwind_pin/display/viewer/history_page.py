@@ -32,7 +32,7 @@ from offwind_pin.display.wording import fixed, foundation_name, number, surrogat
 from offwind_pin.structure.meshes import Mesh, circle, loft
 
 DURATION = 60.0
-"""s of a page, unless told otherwise."""
+"""Default duration of a page in s."""
 
 _VIEW_DEG = (-122.0, 11.0)
 """Azimuth of the camera from the x axis, and its elevation."""

@@ -20,7 +20,7 @@ def page_server(page: str, port: int = 0) -> ThreadingHTTPServer:
     Raises
     ------
     InputError
-        A port that cannot be had.
+        A port that cannot be used.
     """
     content = page.encode()
     names: list[list[str]] = []
@@ -62,7 +62,7 @@ def page_server(page: str, port: int = 0) -> ThreadingHTTPServer:
         server = Server((ADDRESS, port), Handler)
     except (OSError, OverflowError) as error:
         raise InputError(
-            "--port", port, f"a port that is free ({error})", "Leave it out, and one is found."
+            "--port", port, f"a free port ({error})", "Leave it out to use any free port."
         ) from None
     names += [[f"{host}:{server.server_port}"] for host in (ADDRESS, "localhost")]
     if server.server_port == HTTP_PORT:

@@ -27,7 +27,7 @@ from offwind_pin.display.viewer.picture import (
 
 FPS = 25
 MODES_DURATION = 8.0
-"""s of a film of modes, unless told otherwise."""
+"""Default duration in s of a film of modes."""
 MODES_SPEED = 0.5
 """How many times as fast as in reality modes move in a film."""
 
@@ -43,7 +43,7 @@ class View:
     start, duration : float or None, s
         Of the part; by default the first 60 s after the ramp, of modes 8 s.
     labels : list of str or None
-        Modes side by side, by default the first that bend.
+        Modes side by side, by default the first bending modes.
     """
 
     results: xr.Dataset
@@ -55,9 +55,9 @@ class View:
         if not (self.moves or "shape" in self.results):
             raise InputError(
                 "results",
-                str(self.results.attrs.get("title", "something else")),
+                str(self.results.attrs.get("title", "other results")),
                 "a time history or natural modes",
-                "Nothing moves in these.",
+                "Choose results that can be animated.",
             )
         if self.moves and self.labels is not None:
             allowed = "none for a time history without the modes of its case"

@@ -1,9 +1,9 @@
 """Motion of points on the chain's axis, point forces as generalised forces, and their derivatives.
 
-The world-frame Jacobian S that Pinocchio fills in one call holds, in column j, the spatial velocity
-of the world's origin per unit velocity of joint j. The chain is serial, so the spatial velocity of
-a body is a cumulative sum over the columns below it, and the generalised force of joint j is the
-product of column j with the sum of all wrenches above it.
+Column j of the world-frame Jacobian S, which Pinocchio computes in one call, is the spatial
+velocity of the world's origin per unit velocity of joint j. The chain is serial, so the spatial
+velocity of a body is a cumulative sum over the columns below it, and the generalised force of joint
+j is the product of column j with the sum of all wrenches above it.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from offwind_pin.structure.chain import Chain, NDArrayInt, dof_body
 class AxisPoints:
     """Material points on the axis of a chain.
 
-    height (n,) in m; body (n,) index of the carrying body; offset (n,) along it in m.
+    height (n,) in m; body (n,) index of the body; offset (n,) along it in m.
     """
 
     height: Array
@@ -76,8 +76,12 @@ class ChainMotion:
 
     Attributes
     ----------
-    axis, origin : (N + 1, 3) unit vector along each body and place of its frame in m
-    twist, twist_rate : (N + 1, 6) spatial velocity of each body at the world's origin, and its rate
+    axis : (N + 1, 3) array
+        Unit vector along each body.
+    origin : (N + 1, 3) array, m
+        Position of the frame of each body.
+    twist, twist_rate : (N + 1, 6) array
+        Spatial velocity of each body at the world's origin, and its rate.
     """
 
     def __init__(
@@ -126,11 +130,12 @@ class ChainMotion:
         return self.points(AxisPoints.on(self.chain, height))
 
     def derivatives(self, points: AxisPoints, motion: PointMotion) -> PointDerivatives:
-        """How the motion of points depends on q, v and a.
+        """Derivatives of the motion of points by q, v and a.
 
-        A joint turns or shifts everything above it as one rigid body. With S the joint's column, V
-        and V_S the twists of the point's body and of the body above the joint, and x the product of
-        spatial velocities, dV/dq = S x (V - V_S); those of the rate follow by the product rule.
+        A joint rotates or translates everything above it as one rigid body. With S the joint's
+        column, V and V_S the twists of the point's body and of the body above the joint, and x the
+        product of spatial velocities, dV/dq = S x (V - V_S); those of the rate follow by the
+        product rule.
         """
         columns, lower = self.jacobian.T[None], self._below(points)
         twist = self.twist[points.body][:, None]
@@ -175,10 +180,10 @@ class ChainMotion:
     def geometric_stiffness(
         self, points: AxisPoints, position: Array, force: Array, moment: Array
     ) -> Array:
-        """(nv, nv) derivative of the generalised force by q, with forces and moments held.
+        """(nv, nv) derivative of the generalised force by q, with constant forces and moments.
 
-        Two parts: the points move, so that moments about the joints change; and the joint axes
-        turn, dS_j / dq_k = S_k x S_j for k below j.
+        There are two terms: the points move, which changes moments about the joints; and the joint
+        axes rotate, dS_j / dq_k = S_k x S_j for k below j.
         """
         arm = np.zeros((len(position), 6, 6))
         dyad = np.einsum("ni,nj->nij", position, force)
@@ -198,7 +203,7 @@ class ChainMotion:
         return moved + np.tril(turned @ self.jacobian, -1)
 
     def _bodies(self, through: Array) -> Array:
-        """(N + 1, 6) values of bodies out of cumulative sums (6, nv) over the joints."""
+        """(N + 1, 6) values of bodies from cumulative sums (6, nv) over the joints."""
         padded = np.concatenate([np.zeros((6, 1)), through], axis=1)
         return padded[:, self._last_dof + 1].T
 
@@ -208,7 +213,7 @@ class ChainMotion:
 
     @staticmethod
     def _kept(values: Array, lower: NDArray[np.bool_]) -> Array:
-        """(n, 3, nv) with zeros for joints above the points, out of (n, nv, 3)."""
+        """(n, 3, nv) with zeros for joints above the points, from (n, nv, 3)."""
         return np.where(lower[..., None], values, 0.0).transpose(0, 2, 1)
 
     def _wrench_above(
@@ -221,7 +226,7 @@ class ChainMotion:
     def _sums_above(self, points: AxisPoints, values: Array) -> Array:
         """(N + 2, ...) sums of the points' values on each body and all above it.
 
-        The last row, of nothing, is for the joints of tuned mass dampers.
+        The last row, of zeros, is for the joints of tuned mass dampers.
         """
         total = np.zeros((self.chain.elements + 2, *values.shape[1:]))
         np.add.at(total, points.body, values)
@@ -252,7 +257,7 @@ def spatial_cross(a: Array, b: Array) -> Array:
 def axial_vector(rotation: Array) -> Array:
     """(n, 3) vectors t whose skew matrices are the skew parts of rotations (n, 3, 3).
 
-    A rotation phi turns an orientation R by [phi] R, and t by (tr(R) - R) phi / 2.
+    A rotation phi changes an orientation R by [phi] R, and t by (tr(R) - R) phi / 2.
     """
     skew_part = (rotation - rotation.transpose(0, 2, 1)) / 2
     return skew_part[:, [2, 0, 1], [1, 2, 0]]

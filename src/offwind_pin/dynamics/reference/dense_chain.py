@@ -1,4 +1,4 @@
-"""A system under loads by Pinocchio, as Newton's method and generalised-alpha use it.
+"""A system under loads by Pinocchio, for Newton's method and generalised-alpha.
 
 Counterpart of :class:`offwind_pin.dynamics.compiled.chain.CompiledChain`, with dense matrices.
 """
@@ -31,22 +31,22 @@ class DenseChain:
         return np.asarray(time, dtype=float)[:, None]
 
     def mean_inputs(self) -> Array:
-        """(1,) time 0; equations without a ramp time have the means of the loads alone."""
+        """(1,) time 0; equations without a ramp time use the means of the loads alone."""
         return np.zeros(1)
 
     def residual(self, time_inputs: Array, q: Array, v: Array, a: Array) -> Array:
-        """(nv,) generalised forces out of balance, in N and N m."""
+        """(nv,) residual generalised forces in N and N m."""
         return self.equations.residual(float(time_inputs[0]), q, v, a)
 
     def factorise(
         self, time_inputs: Array, q: Array, v: Array, a: Array, dv_dq: float, da_dq: float
     ) -> None:
-        """Make the iteration matrix da_dq dr/da + dv_dq dr/dv + dr/dq about a state.
+        """Factorise the iteration matrix da_dq dr/da + dv_dq dr/dv + dr/dq about a state.
 
         Raises
         ------
         LinAlgError
-            It is singular.
+            The matrix is singular.
         """
         time = float(time_inputs[0])
         stiffness, damping = self.equations.tangents(time, q, v, a)
@@ -63,13 +63,13 @@ class DenseChain:
         return np.asarray(lu_solve(self._factors, residual, check_finite=False))
 
     def unstable_directions(self) -> int:
-        """Number of motions away from the factorised static state that need no work."""
+        """Number of unstable directions of the factorised static state."""
         symmetric = (self._matrix + self._matrix.T) / 2
         return int(np.sum(np.linalg.eigvalsh(symmetric) <= 0))
 
     @property
     def memory(self) -> Array:
-        """(m,) what soil and foundation keep of their past; a copy."""
+        """(m,) memory of soil and foundation; a copy."""
         return self.equations.memory
 
     @memory.setter
@@ -77,7 +77,7 @@ class DenseChain:
         self.equations.memory = past
 
     def at_rest(self, time_inputs: Array, q: Array, height: Array) -> RestingAxis:
-        """Axis and section loads of a state of rest, which soil and foundation then remember."""
+        """Axis and section loads of a state of rest, to which memories are updated."""
         time, rest = float(time_inputs[0]), np.zeros_like(q)
         self.equations.commit(time, q, rest, rest)
         motion = self.equations.chain_motion(q, rest)

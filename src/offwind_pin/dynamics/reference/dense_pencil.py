@@ -19,15 +19,15 @@ class DensePencil:
         self._mass = equations.mass(q)
 
     def lowest(self, count: int) -> tuple[Array, Array]:
-        """(count,) squared angular frequencies, rising; (nv, count) mass-normalised modes."""
+        """(count,) squared angular frequencies in order; (nv, count) mass-normalised modes."""
         return natural_modes(self._stiffness, self._mass, count)
 
     def stiffness_times(self, vectors: Array) -> Array:
-        """(nv, n) of the same shape."""
+        """(nv, n) product with vectors (nv, n)."""
         return np.asarray(self._stiffness @ vectors)
 
     def damping_times(self, vectors: Array) -> Array:
-        """(nv, n) of the same shape."""
+        """(nv, n) product with vectors (nv, n)."""
         return np.asarray(self._damping @ vectors)
 
     def dissipation(self, vectors: Array) -> Array:

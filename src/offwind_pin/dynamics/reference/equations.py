@@ -3,7 +3,7 @@
     r(t, q, v, a) = rnea(q, v, a) + K q + D v + R(q, v) - Q(t, q, v, a)
 
 with the joint springs and dampers K, D, the root's restraint R, and the generalised force Q of all
-point loads, the added mass's inertia included. Pinocchio gives the rigid bodies and their
+point loads, including the inertia of the added mass. Pinocchio computes the rigid bodies and their
 derivatives; everything else acts through the chain's axis.
 """
 
@@ -50,7 +50,7 @@ class Evaluation:
     """One evaluation of the chain and its loads.
 
     motion : of the chain, relative to a base that may move; points, forces : motion of the loaded
-    points, and forces there, the added mass's first
+    points, and forces on them, those of the added mass first
     """
 
     motion: ChainMotion
@@ -61,15 +61,20 @@ class Evaluation:
 class Equations:
     """Residual, mass matrix and tangents of a system under loads.
 
-    Nothing returned points into Pinocchio's scratch data.
+    Returned arrays do not refer to Pinocchio's scratch data.
 
     Attributes
     ----------
     loads : sequence of PointLoad
-        Soil, water and what was given; with water the added mass comes first.
-    points : where they act
-    model, data : Pinocchio's, the data those of this thread
-    last_joint : (N + 1) joint of the model that moves each body
+        Soil, water and given loads; with water the added mass comes first.
+    points : AxisPoints
+        Loaded points.
+    model : Model
+        Pinocchio's model.
+    data : Data
+        Pinocchio's scratch data of this thread.
+    last_joint : (N + 1,) int array
+        Joint of the model that moves each body.
     """
 
     def __init__(
@@ -103,7 +108,7 @@ class Equations:
 
     @property
     def memory(self) -> Array:
-        """(m,) what soil and foundation keep of their past; a copy."""
+        """(m,) memory of soil and foundation; a copy."""
         return np.concatenate(self._memory)
 
     @memory.setter
@@ -111,7 +116,7 @@ class Equations:
         self._memory = [part.copy() for part in split_memory(self.loads, self._root, past)]
 
     def residual(self, time: float, q: Array, v: Array, a: Array) -> Array:
-        """(nv,) generalised forces out of balance, in N and N m."""
+        """(nv,) residual generalised forces in N and N m."""
         state = self.inverse_dynamics(time, q, v, a)
         balance = self.data.tau + self.system.joint_stiffness * q + self.system.joint_damping * v
         balance -= state.motion.generalised_force(
@@ -183,7 +188,8 @@ class Equations:
     def evaluate(self, time: float, q: Array, v: Array, a: Array) -> Evaluation:
         """Motion of the chain and of the loaded points, and every point force.
 
-        In an earthquake motions are those relative to the base; loads are shown what they see.
+        In an earthquake the motion is relative to the base; loads receive the motion that they
+        refer to.
         """
         motion = self.chain_motion(q, v, a)
         points = motion.points(self.points)
@@ -196,14 +202,14 @@ class Equations:
         return Evaluation(motion, points, PointForces(force, moment))
 
     def inverse_dynamics(self, time: float, q: Array, v: Array, a: Array) -> Evaluation:
-        """The same, with Pinocchio's data left as its rnea of that state fills them."""
+        """The same, with Pinocchio's data as computed by rnea in that state."""
         state = self.evaluate(time, q, v, a)
         self._lean(time)
         pin.rnea(self.model, self.data, q, v, a)
         return state
 
     def commit(self, time: float, q: Array, v: Array, a: Array) -> None:
-        """End a step: what loads and root keep of their past becomes that of a state."""
+        """End a step: update the memory of loads and root to a state."""
         seen = self._seen(time, self.chain_motion(q, v, a).points(self.points))
         ramp_factor = float(smooth_ramp(np.array(time), self.ramp_time))
         for load, part, past in zip(self.loads, self._parts, self._memory[:-1], strict=True):
@@ -223,13 +229,13 @@ class Equations:
         return self._ground_now[1]
 
     def _lean(self, time: float) -> None:
-        """Let gravity pull as it does seen from a base that accelerates."""
+        """Set gravity as seen from the accelerating base."""
         if self._ground_motion is not None:
             own = self.system.pin_model.gravity.linear
             self.model.gravity.linear = own - self._ground(time)[BASE, 2]
 
     def _seen(self, time: float, points: PointMotion) -> PointMotion:
-        """Motion as loads see it: absolute, but for the soil relative to the ground there.
+        """Motion that loads refer to: absolute, for the soil relative to the ground.
 
         points : relative to the base
         """

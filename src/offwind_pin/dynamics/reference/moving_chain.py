@@ -1,4 +1,4 @@
-"""Motion in time by Pinocchio, recorded by the compiled chain."""
+"""Time integration by Pinocchio, recorded by the compiled chain."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from offwind_pin.solvers import generalized_alpha
 class MovingChain(CompiledChain):
     """A system under loads whose equations of motion are evaluated by Pinocchio.
 
-    What is recorded (motion of the axis, section loads, energies, the residual) is evaluated from
-    q, v and a by compiled code.
+    Records (motion of the axis, section loads, energies, residual) are evaluated from q, v and a by
+    compiled code.
     """
 
     def start(self, q: Array) -> Array:
@@ -48,7 +48,7 @@ class _RecordedChain(DenseChain):
         self._scale = scale
 
     def observe(self, row: Array, state: Array, iterations: int, size: float) -> None:
-        """Record a converged step with the memory that it was solved with, then end it."""
+        """Record a converged step with the memory used in it, then end it."""
         q, v, a = state[:3]
         self._recording.memory = self.memory
         self._recording.note(self._recorder, row, q, v, a, self._scale, iterations)

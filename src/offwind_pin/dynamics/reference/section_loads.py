@@ -16,8 +16,8 @@ def section_loads(
 ) -> Array:
     """(m, 6) force (N) and moment (N m) about each cut, of the part above on the part below.
 
-    They are the loads above the cut less the forces that the bodies above it need for their motion
-    and weight: those that Pinocchio finds at the next node, and those of the part of the cut body.
+    They are the loads above the cut minus the inertia and weight of the bodies above it: those that
+    Pinocchio computes at the next node, and those of the part of the cut body.
 
     Parameters
     ----------
@@ -34,8 +34,8 @@ def section_loads(
     loaded = equations.points
     result = np.zeros((len(height), 6))
     for i, (z, body) in enumerate(zip(height, cut.body, strict=True)):
-        # A soil node at the cut belongs below it, whatever the last digit of its height; a load at
-        # the yaw bearing acts on the assembly above every cut.
+        # A soil node at the cut belongs below it in spite of rounding errors of its height; a load
+        # at the yaw bearing acts on the assembly above every cut.
         above = (loaded.height > z + 1e-9) | (loaded.height == chain.top)
         own = acting[(loaded.body > body) | ((loaded.body == body) & above)].sum(axis=0)
         load = own - _needed_above(equations, int(body), float(z))
@@ -45,7 +45,7 @@ def section_loads(
 
 
 def _needed_above(equations: Equations, body: int, height: float) -> Array:
-    """(6,) wrench about the world's origin that everything above a cut needs."""
+    """(6,) inertia and weight above a cut as a wrench about the world's origin."""
     chain, model, data = equations.chain, equations.model, equations.data
     joint = equations.last_joint[body]
     own = chain.origin[body] if joint else 0.0  # a clamped base moves with the world

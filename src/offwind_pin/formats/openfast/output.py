@@ -51,7 +51,7 @@ class OpenFastOutput:
         SHA-256 of its content.
     time : (t,) array, s
     name, unit : list of str
-        c of each, as in the file, without time.
+        List of str Names and units of the c channels as in the file, time excluded.
     packed : (t, c) array
         As in the file.
     slope, offset : (c,) array
@@ -59,7 +59,7 @@ class OpenFastOutput:
     place : (t,) int array
         Where each time stands in the file: its line, or its number from 1.
     counted : str
-        ``line`` or ``time step``.
+        Str ``line`` or ``time step``.
     """
 
     path: Path
@@ -74,7 +74,7 @@ class OpenFastOutput:
     counted: str
 
     def channel(self, name: str, kind: str) -> Array:
-        """(t,) a channel in SI; kind : see :func:`si_factor`.
+        """(t,) values of a channel in SI; for ``kind`` see :func:`si_factor`.
 
         Raises
         ------
@@ -120,7 +120,7 @@ def read_openfast_output(path: Path) -> OpenFastOutput:
     Raises
     ------
     InputError
-        A file that is missing, truncated, or of another format; the message tells where.
+        A file that is missing, truncated, or of another format; the message says where.
     """
     path = Path(path)
     return _read_binary(path) if path.suffix.lower() == ".outb" else _read_text(path)
@@ -147,7 +147,7 @@ def _read_text(path: Path) -> OpenFastOutput:
                     f"{path}, line {head + 2}",
                     f"{len(units)} units",
                     f"{len(names)}, one for each channel",
-                    "Units such as (kN-m) hold no blanks.",
+                    "Units such as (kN-m) must not contain spaces.",
                 )
             reader = RowReader(path, len(names), " ", _spoilt)
             text = "\n" * (head + 2) + "\n".join(lines[head + 2 :])
@@ -166,7 +166,7 @@ def _read_text(path: Path) -> OpenFastOutput:
         raise InputError(
             f"{path}, line {line}",
             last[-1].strip(),
-            "a row as long as the one before, and an end of line",
+            "a row as long as the previous one, ending with a newline",
             "The file is truncated; was the run killed? Run it again, or delete the last line.",
         )
     values, place = reader.values, np.concatenate(reader.lines)
@@ -210,7 +210,8 @@ def _begins_table(row: str) -> bool:
 
 
 class _Bytes:
-    """Content of a file, read in sequence; an error for missing bytes names what was being read."""
+    """Content of a file, read sequentially; an error for missing bytes names what was being
+    read."""
 
     def __init__(self, path: Path, content: bytes) -> None:
         self.path = path
@@ -279,10 +280,10 @@ def _read_binary(path: Path) -> OpenFastOutput:
     ticks: Array | None = None
     if kind == WITH_TIME:
         if first == 0:
-            raise data.wrong("slope of the time", first, "a number that is not zero")
+            raise data.wrong("slope of the time", first, "a nonzero number")
         ticks = (data.array("<i4", steps, "times").astype(float) - second) / first
     elif second <= 0:
-        raise data.wrong("step of the time", second, "a positive number of s")
+        raise data.wrong("time step", second, "a positive number of seconds")
     width = "<f8" if kind == NO_COMPRESSION else "<i2"
     packed = data.array(width, steps * channels, "values").reshape(steps, channels)
     if data.at != len(content):
@@ -293,7 +294,7 @@ def _read_binary(path: Path) -> OpenFastOutput:
             len(content) - data.at,
             steps,
         )
-    # Made only now that the file is known to hold as many steps as it promises.
+    # Allocated only now that the file is known to contain all its steps.
     time = first + second * np.arange(0.0, steps) if ticks is None else ticks
     time = time * si_factor(f"{path}, channel {names[0]}", units[0], TIME)
     return OpenFastOutput(

@@ -1,9 +1,10 @@
 """A 6x6 foundation as files that other codes read: OpenFAST's SubDyn and SoilDyn.
 
 Order x, y, z, rx, ry, rz in N, m, rad; kg, m for masses. Numbers are printed with 17 significant
-digits, so that reading gives back the same.
+digits, so that reading recovers them exactly.
 
-WISDEM has no place for a 6x6; ``wisdem_springs`` tells it as springs along its pile.
+WISDEM has no input for a 6x6; :mod:`offwind_pin.formats.wisdem` expresses it as springs along its
+pile.
 """
 
 from __future__ import annotations
@@ -25,16 +26,20 @@ Array = NDArray[np.float64]
 
 _DIRECTIONS = ("x", "y", "z", "tx", "ty", "tz")
 _UPPER = tuple((i, j) for j in range(6) for i in range(j + 1))
-"""Places of SubDyn's 21 entries: the upper triangle, column by column."""
+"""Indices of SubDyn's 21 entries: the upper triangle, column by column."""
 _ASYMMETRY = 1e-9
-"""Difference of entries ij and ji over the root of ii times jj that is put down to rounding."""
+"""Difference of entries ij and ji over the root of ii times jj that counts as rounding error."""
 
 
 @dataclass(frozen=True, eq=False)
 class SoilDynInput:
-    """What SoilDyn reads for its stiffness option.
+    """Input of SoilDyn's stiffness option.
 
-    location (3,) of the interface point in m, z from still water level; stiffness, damping (6, 6)
+    Attributes
+    ----------
+    location : (3,) array, m
+        Interface point, z from still water level.
+    stiffness, damping : (6, 6) array
     """
 
     location: Array
@@ -47,7 +52,7 @@ def write_subdyn_ssi(
 ) -> None:
     """Write a SubDyn soil-structure interaction file, named in its table of base reaction joints.
 
-    All 21 entries of either matrix are written: of entries left out the manual says that they are
+    All 21 entries of either matrix are written: for omitted entries the manual says that they are
     infinite, and the program (OpenFAST 3 to 4, ``ReadSSIfile`` in SubDyn.f90) that they are zero.
     The joint must be free, 0 in all six columns of that table, in the directions of its springs.
     Source: OpenFAST's documentation of SubDyn, section SSI Input File, and that routine.
@@ -77,7 +82,7 @@ def write_subdyn_ssi(
 
 
 def read_subdyn_ssi(path: Path) -> tuple[Array, Array]:
-    """Stiffness and mass (6, 6) of a SubDyn SSI file; entries left out are zero, as to the program.
+    """Stiffness and mass (6, 6) of a SubDyn SSI file; omitted entries are zero, as in the program.
 
     Raises
     ------
@@ -99,7 +104,10 @@ def read_subdyn_ssi(path: Path) -> tuple[Array, Array]:
         name = words[1].lower() if len(words) > 1 else ""
         if name not in names:
             raise InputError(
-                where, text, "a number and one of Kxx ... Ktztz, Mxx ... Mtztz", "Name it."
+                where,
+                text,
+                "a number and one of Kxx ... Ktztz, Mxx ... Mtztz",
+                "Complete the line.",
             )
         if name in seen:
             raise InputError(where, text, f"{words[1]} once", "Remove one of the two.")
@@ -120,7 +128,7 @@ def write_soildyn(
     """Write SoilDyn's input file with ``CalcOption`` 1, the stiffness matrix.
 
     The location must be that of a reaction joint of SubDyn, free in all directions and without an
-    SSI file of its own, else the foundation counts twice. Source: OpenFAST's ``SlD_ReadInput`` in
+    SSI file of its own, or the foundation counts twice. Source: OpenFAST's ``SlD_ReadInput`` in
     SoilDyn_IO.f90, which reads line by line, and the r-test case OC6_phaseII.
 
     Parameters
@@ -129,14 +137,14 @@ def write_soildyn(
     location : sequence of float, m
         x, y, z of the interface point, z from still water level.
     damping : (6, 6) array_like, optional
-        Of what SoilDyn's own files call damping ratios; zeros by default.
+        What SoilDyn's files call damping ratios; zeros by default.
     note : str
         The second line of the file.
 
     Raises
     ------
     InputError
-        A matrix or place that is not of finite numbers.
+        A matrix or location with numbers that are not finite.
     """
     place = np.asarray(location, dtype=float)
     if place.shape != (3,) or not np.all(np.isfinite(place)):
@@ -173,7 +181,7 @@ def write_soildyn(
 
 
 def read_soildyn(path: Path) -> SoilDynInput:
-    """Location, stiffness and damping of a SoilDyn input file, by its lines as SoilDyn reads them.
+    """Location, stiffness and damping of a SoilDyn input file, by line number as SoilDyn reads it.
 
     Raises
     ------
@@ -212,12 +220,12 @@ def _matrix(given: ArrayLike, where: str) -> Array:
     matrix = np.asarray(given, dtype=float)
     if matrix.shape != (6, 6) or not np.all(np.isfinite(matrix)):
         shape = f"an array of shape {matrix.shape}"
-        raise InputError(where, shape, "six by six finite numbers", "Give all of them.")
+        raise InputError(where, shape, "six by six finite numbers", "Give the full matrix.")
     return matrix
 
 
 def symmetric_matrix(given: ArrayLike, where: str) -> Array:
-    """(6, 6) without what rounding made unsymmetric; an InputError on any other."""
+    """(6, 6) with rounding asymmetry removed; an InputError for a larger one."""
     matrix = _matrix(given, where)
     size = np.sqrt(np.abs(np.diag(matrix)))
     difference = np.abs(matrix - matrix.T)
@@ -227,7 +235,7 @@ def symmetric_matrix(given: ArrayLike, where: str) -> Array:
             where,
             f"{matrix[i, j]} at {_entry('', i, j)} and {matrix[j, i]} at {_entry('', j, i)}",
             "a symmetric matrix",
-            "Give the symmetric part if the difference may be left out.",
+            "Give the symmetric part if the difference is negligible.",
         )
     return (matrix + matrix.T) / 2
 

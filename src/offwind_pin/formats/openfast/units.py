@@ -1,4 +1,4 @@
-"""Units as load files spell them, and what they are in SI."""
+"""Spellings of units in load files, and their SI equivalents."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ _KNOWN = {
     "sec": (TIME, 1.0),
 }
 _BETWEEN = re.compile(r"[\s·*.\-⋅∙]")
-"""What stands between kN and m; each writer has its own."""
+"""Separators between kN and m, which differ between programs."""
 
 
 def si_factor(where: str, unit: str, kind: str) -> float:
-    """What a number in a unit is multiplied by to be in SI.
+    """Factor that converts a number in a unit to SI.
 
     unit : as in the file, with or without brackets; kind : ``FORCE``, ``MOMENT``, ``ANGLE`` or
     ``TIME``
@@ -38,7 +38,7 @@ def si_factor(where: str, unit: str, kind: str) -> float:
     Raises
     ------
     InputError
-        A unit that is not known, or is of another kind.
+        An unknown unit, or one of another kind.
     """
     plain = _BETWEEN.sub("", unit.strip().strip("()[]"))
     found = _KNOWN.get(plain)

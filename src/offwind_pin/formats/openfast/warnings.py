@@ -1,4 +1,4 @@
-"""Numbers in a tower-top load that look like a common mistake."""
+"""Checks of tower-top loads for common mistakes."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ from offwind_pin.loads.tower_top.load_history import LoadHistory
 
 SMALL_SHARE = 1e-3
 """Of the weight of rotor and nacelle. A running rotor's thrust is a tenth to a quarter of it, a
-parked one's drag a hundredth; in kN they are ten thousandths and less."""
+parked one's drag a hundredth; in kN they are below a thousandth."""
 
 LARGE_SHARE = 20.0
-"""Of the same weight: beyond any rotor, but what a factor of 1000 too much gives."""
+"""Of the same weight: beyond any rotor, but typical of a factor of 1000 too much."""
 
 WEIGHT_SHARE = (0.75, 1.25)
-"""Of the weight, in which a mean Fz downwards is that weight."""
+"""Fraction of the weight within which a mean downward Fz counts as that weight."""
 
 
 def load_cautions(
     history: LoadHistory, rna: RigidBodyRNA | RotorNacelleRNA, gravity: float
 ) -> list[str]:
-    """Sentences about loads that look like a mistake, none if there are none.
+    """Cautions about loads that look like a mistake.
 
     gravity in m/s2
     """
@@ -32,8 +32,8 @@ def load_cautions(
     if 0 < level < SMALL_SHARE * weight:
         told.append(
             f"{history.origin}: horizontal forces of {level:.3g} N are {level / weight:.1e} of "
-            f"the weight of rotor and nacelle ({weight:.3g} N); they look like kN, where N is "
-            "needed: give factor 1000"
+            f"the weight of rotor and nacelle ({weight:.3g} N); they seem to be in kN where N is "
+            "required: set factor: 1000"
         )
     if level > LARGE_SHARE * weight:
         told.append(
@@ -44,7 +44,7 @@ def load_cautions(
     if WEIGHT_SHARE[0] * weight < -mean < WEIGHT_SHARE[1] * weight:
         told.append(
             f"{history.origin}: the mean Fz of {mean:.3g} N is the weight of rotor and nacelle "
-            f"({weight:.3g} N), which the model carries already; it counts twice: give "
-            "subtract_weight: true, or choose aerodynamic channels"
+            f"({weight:.3g} N), which the model already includes, so it would count twice: set "
+            "subtract_weight: true, or use aerodynamic channels"
         )
     return told

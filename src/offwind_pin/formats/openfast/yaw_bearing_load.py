@@ -1,4 +1,4 @@
-"""Tower-top load histories out of files: chosen channels, moved to the yaw bearing, superposed."""
+"""Tower-top load histories from files: selected channels, moved to the yaw bearing, superposed."""
 
 from __future__ import annotations
 
@@ -33,15 +33,15 @@ band of interest ends at 1.5 Hz."""
 
 
 def from_channels(output: OpenFastOutput, channels: Mapping[str, str]) -> LoadHistory:
-    """A history of chosen channels, zero where a component names none.
+    """A load history of selected channels; components without a channel are zero.
 
     channels : by component Fx, Fy, Fz, Mx, My, Mz
 
     Raises
     ------
     InputError
-        An unknown channel or unit; times that do not rise, or leave a gap; loads beyond anything a
-        turbine gives.
+        An unknown channel or unit; times that do not rise, or leave a gap; loads larger than those
+        of any turbine.
     """
     check_times(output.path, output.time, output.place, output.counted)
     load = np.zeros((len(output.time), 6))
@@ -67,13 +67,13 @@ def from_rotor_apex(
 ) -> LoadHistory:
     """The same for a load at the rotor apex in the hub's frame, moved to the yaw bearing.
 
-    The hub's frame turns by the azimuth about the shaft, which is tilted; the nacelle looks upwind.
-    azimuth : channel of it, not needed where only Fx and Mx are chosen
+    The hub's frame rotates by the azimuth about the tilted shaft; the nacelle faces upwind.
+    azimuth : its channel, not needed if only Fx and Mx are given
 
     Raises
     ------
     InputError
-        As above; or components across the shaft without an azimuth.
+        As :func:`from_channels`; or components across the shaft without an azimuth.
     """
     history = from_channels(output, channels)
     force, moment = history.load[:, :3], history.load[:, 3:]
@@ -82,8 +82,8 @@ def from_rotor_apex(
             raise InputError(
                 f"{output.path}, channels at the rotor apex",
                 ", ".join(sorted(set(channels) - {"Fx", "Mx"})),
-                "Fx and Mx, or an azimuth channel too",
-                "Across the shaft the hub's frame turns: name azimuth_channel.",
+                "Fx and Mx, or an azimuth channel as well",
+                "The hub's frame rotates about the shaft: give azimuth_channel.",
             )
         angle = output.channel(azimuth, ANGLE)
         force, moment = _turned_back(force, angle), _turned_back(moment, angle)
@@ -96,7 +96,7 @@ def from_rotor_apex(
 
 
 def _turned_back(vector: Array, angle: Array) -> Array:
-    """(t, 3) components in the shaft's frame of vectors in one that turned about x by an angle."""
+    """(t, 3) components in the shaft's frame of vectors given in a frame rotated about x."""
     cosine, sine = np.cos(angle), np.sin(angle)
     across = cosine * vector[:, 1] - sine * vector[:, 2]
     upright = sine * vector[:, 1] + cosine * vector[:, 2]
@@ -104,7 +104,7 @@ def _turned_back(vector: Array, angle: Array) -> Array:
 
 
 def carried_body(rna: RigidBodyRNA | RotorNacelleRNA) -> RigidBody:
-    """What the yaw bearing carries: the rotor-nacelle assembly without the bearing itself."""
+    """The rotor-nacelle assembly above the yaw bearing, without the bearing itself."""
     if isinstance(rna, RotorNacelleRNA):
         rna = rna.model_copy(update={"yaw_bearing_mass": 0.0})
     return lump_rna(rna)
@@ -118,14 +118,14 @@ def weight_at_yaw_bearing(rna: RigidBodyRNA | RotorNacelleRNA, gravity: float) -
 
 
 def changed(history: LoadHistory, factor: float, shift: float, less: Array | None) -> LoadHistory:
-    """A history times a factor and later by a shift in s, less a constant load (6,)."""
+    """A history times a factor and delayed by a shift in s, less a constant load (6,)."""
     if factor == 1 and shift == 0 and less is None:
         return history
-    told = [f"times {factor:g}"] if factor != 1 else []
-    told += [f"{shift:g} s later"] if shift != 0 else []
-    told += ["less the weight of rotor and nacelle"] if less is not None else []
+    changes = [f"times {factor:g}"] if factor != 1 else []
+    changes += [f"{shift:g} s later"] if shift != 0 else []
+    changes += ["less the weight of rotor and nacelle"] if less is not None else []
     load = history.load - (0.0 if less is None else less)
-    origin = f"{history.origin}, {', '.join(told)}"
+    origin = f"{history.origin}, {', '.join(changes)}"
     return LoadHistory(history.time + shift, factor * load, origin, history.surrogate)
 
 
@@ -146,7 +146,7 @@ def superpose(histories: Sequence[LoadHistory]) -> tuple[LoadHistory, list[str]]
     if not start < end:
         raise InputError(
             "tower-top load files",
-            f"one starts at {start:g} s, another ends at {end:g} s",
+            f"one file starts at {start:g} s, another ends at {end:g} s",
             "files that overlap in time",
             "Check shift_s.",
         )
@@ -167,7 +167,7 @@ def superpose(histories: Sequence[LoadHistory]) -> tuple[LoadHistory, list[str]]
 
 
 def resampling_notes(history: LoadHistory, dt: float) -> tuple[list[str], list[str]]:
-    """What happens to a history in a simulation with steps of dt s: notes, and cautions."""
+    """Effects of resampling a history at steps of dt s: notes and cautions."""
     step = _step(history)
     notes, cautions = [], []
     if abs(step - dt) > 1e-6 * dt:
@@ -176,13 +176,13 @@ def resampling_notes(history: LoadHistory, dt: float) -> tuple[list[str], list[s
         )
     if step > _COARSE:
         cautions.append(
-            f"{history.origin}: a step of {step:g} s is coarse; linear interpolation flattens what "
-            f"is faster than {1 / (8 * step):.2g} Hz by more than 5 %"
+            f"{history.origin}: its step of {step:g} s is coarse; linear interpolation attenuates "
+            f"frequencies above {1 / (8 * step):.2g} Hz by more than 5 %"
         )
     if step < dt / 2:
         cautions.append(
-            f"{history.origin}: a step of {step:g} s is finer than {dt:g} s; what is faster than "
-            f"{0.5 / dt:.3g} Hz is sampled as something slower"
+            f"{history.origin}: its step of {step:g} s is finer than dt, {dt:g} s; frequencies "
+            f"above {0.5 / dt:.3g} Hz are aliased"
         )
     return notes, cautions
 

@@ -1,4 +1,4 @@
-"""An earthquake as a load case names it: files of one record, or one for each of several levels."""
+"""Earthquake of a load case: files of one record, or of one record per level."""
 
 from __future__ import annotations
 
@@ -36,8 +36,8 @@ class RecordFile(Definition):
     def _check_files(self) -> None:
         if (self.file is None) == (self.at2 is None):
             raise ValueError(
-                "the record is given twice or not at all; give either file (columns of numbers) or "
-                "at2 (files by axis)"
+                "file and at2 are both given, or neither is; give file (columns of numbers) or at2 "
+                "(files by axis)"
             )
         if self.at2 is not None and (self.acceleration_unit or self.components):
             raise ValueError(
@@ -47,7 +47,7 @@ class RecordFile(Definition):
         if self.file is not None and not (self.acceleration_unit and self.components):
             raise ValueError(
                 "the file's unit or axes are missing; give acceleration_unit (m_per_s2, cm_per_s2 "
-                "or g) and components, the axes of its columns after the time's, such as [x, y, z]"
+                "or g) and components, the axes of the columns after the time, such as [x, y, z]"
             )
 
     def read(self) -> tuple[Accelerogram, list[str]]:
@@ -56,7 +56,7 @@ class RecordFile(Definition):
             record = read_at2_components(self.at2)
             return record, unit_cautions(record.acceleration, "g")
         if self.file is None or self.acceleration_unit is None or self.components is None:
-            raise RuntimeError("a record without a file was not refused")
+            raise RuntimeError("a record without a file was not rejected")
         record = read_columns(self.file, self.acceleration_unit, self.components)
         return record, unit_cautions(record.acceleration, self.acceleration_unit)
 
@@ -75,11 +75,11 @@ class Earthquake(RecordFile):
     levels : tuple of LevelRecord or None
         Records by height, in place of a single one.
     scale : float
-        Multiplies accelerations.
+        Multiplier of the accelerations.
     direction_deg : float
-        Degrees from +x towards +y, by which the record is rotated about z.
+        Angle in degrees from +x towards +y by which the record is rotated about z.
     start : float, s
-        When the record's time 0 is.
+        Simulated time of the record's time 0.
     baseline : {"none", "parabolic"}
         See :class:`GroundMotion`.
     """
@@ -94,17 +94,19 @@ class Earthquake(RecordFile):
         if self.levels is None:
             super()._check_files()
         elif self.file or self.at2 or self.acceleration_unit or self.components:
-            raise ValueError("with levels, give file or at2 to each of them")
+            raise ValueError("file and at2 cannot be combined with levels; give them in each level")
         if self.scale == 0:
-            raise ValueError("a scale of 0 leaves no earthquake; leave it out instead")
+            raise ValueError(
+                "a scale of 0 removes the earthquake; leave the earthquake out instead"
+            )
 
     def ground_motion(self) -> tuple[GroundMotion, list[str]]:
-        """What moves the ground, and cautions about the units.
+        """Ground motion, and cautions about the units.
 
         Raises
         ------
         InputError
-            A file that cannot be used, or levels that differ in their times.
+            An invalid file, or levels with different times.
         """
         if self.levels is None:
             record, cautions = self.read()
@@ -127,7 +129,7 @@ class Earthquake(RecordFile):
                 raise InputError(
                     f"earthquake, level z_m = {level.z:g}",
                     f"{len(record.time)} samples from {record.time[0]:g} to {record.time[-1]:g} s",
-                    f"the times of the level below: {len(first.time)} samples from "
+                    f"the times of the level below, {len(first.time)} samples from "
                     f"{first.time[0]:g} to {first.time[-1]:g} s",
                     "Resample the records at the same times.",
                 )

@@ -15,20 +15,20 @@ from offwind_pin.base.errors import InputError
 Baseline = Literal["none", "parabolic"]
 
 LARGEST_ACCELERATION = 100.0
-"""m/s2, several times the strongest ground acceleration ever recorded (about 43 m/s2, Ichinoseki,
+"""m/s2, several times the strongest recorded ground acceleration (about 43 m/s2, Ichinoseki,
 2008)."""
 _GAP = 5.0
-"""Times the median step, beyond which samples are missing."""
+"""Multiple of the median step beyond which samples are missing."""
 _MANY = 20
-"""Steps from which on a record is sampled, and not a table of corners written by hand."""
+"""Number of steps from which a record counts as sampled rather than as a hand-written table."""
 
 
 @dataclass(frozen=True, eq=False)
 class GroundMotion:
-    """Acceleration of the ground, linear between its samples, with the motion that follows from it.
+    """Acceleration of the ground, linear between samples, with the resulting motion.
 
-    The ground rests before the first sample. After the last its acceleration is zero, and it goes
-    on with the velocity that it has then. Velocity and displacement are exact integrals.
+    The ground is at rest before the first sample. After the last its acceleration is zero, and its
+    velocity stays constant. Velocity and displacement are exact integrals.
 
     Attributes
     ----------
@@ -40,17 +40,17 @@ class GroundMotion:
         Rising, from z = 0 at still water level upwards; between them the motion is linear in z.
         None for one motion everywhere.
     baseline : {"none", "parabolic"}
-        ``"parabolic"`` takes a parabola off each component of the acceleration, so that the
-        velocity ends at zero and its mean square is the least that this allows; after Berg and
+        ``"parabolic"`` subtracts a parabola from each component of the acceleration, so that the
+        velocity ends at zero with the smallest possible mean square; after Berg and
         Housner (Bulletin of the Seismological Society of America 51, 1961, pages 175 to 189), who
-        do not ask for the former.
+        do not require zero velocity at the end.
     origin : str
         Where the numbers come from.
 
     Raises
     ------
     InputError
-        Shapes that do not fit, numbers that are not finite or no ground can reach, times that do
+        Shapes that do not match, numbers that are not finite or implausibly large, times that do
         not rise or leave a gap, heights that do not rise.
     """
 
@@ -114,13 +114,13 @@ class GroundMotion:
             raise InputError(
                 "ground motion, time",
                 f"a step of {step[i]:g} s after {self.time[i]:g} s",
-                f"steps of about {usual:g} s, as elsewhere in the record",
+                f"steps of about {usual:g} s, as in the rest of the record",
                 "Are samples missing?",
             )
 
     @property
     def levels(self) -> Array:
-        """(D,) heights in m; of one motion everywhere a single number that means nothing."""
+        """(D,) heights in m; a single 0 for one motion everywhere."""
         return np.zeros(1) if self.height is None else self.height
 
     @property
@@ -130,7 +130,7 @@ class GroundMotion:
 
     @cached_property
     def corrected(self) -> Array:
-        """(D, n, 3) acceleration at the samples after the baseline's correction, in m/s2."""
+        """(D, n, 3) acceleration at the samples after the baseline correction, in m/s2."""
         acceleration = self.acceleration if self.height is not None else self.acceleration[None]
         if self.baseline == "none":
             return acceleration
@@ -146,7 +146,17 @@ class GroundMotion:
         return velocity, _summed(gained)
 
     def motion(self, time: Array) -> Array:
-        """(t, D, 3, 3) displacement in m, velocity and acceleration at times (t,) in s."""
+        """Motion of the ground.
+
+        Parameters
+        ----------
+        time : (t,) array, s
+
+        Returns
+        -------
+        (t, D, 3, 3) array, m, m/s and m/s2
+            Displacement, velocity and acceleration along x, y and z at each height.
+        """
         time = np.asarray(time, dtype=float)
         velocity, displacement = self._integrals
         at = np.clip(np.searchsorted(self.time, time, side="right") - 1, 0, len(self.time) - 2)
@@ -169,68 +179,98 @@ class GroundMotion:
         return result
 
     def later(self, start: float) -> GroundMotion:
-        """The same, that many seconds later."""
+        """The same motion, delayed.
+
+        Parameters
+        ----------
+        start : float, s
+            Delay.
+
+        Returns
+        -------
+        GroundMotion
+        """
         return replace(self, time=self.time + start)
 
     def scaled(self, factor: float) -> GroundMotion:
-        """The same, with accelerations multiplied."""
+        """The same motion with accelerations multiplied.
+
+        Parameters
+        ----------
+        factor : float
+            Multiplier.
+
+        Returns
+        -------
+        GroundMotion
+        """
         return replace(self, acceleration=factor * self.acceleration)
 
     def turned(self, angle: float) -> GroundMotion:
-        """The same, turned about z by an angle in rad, from x towards y."""
+        """The same motion rotated about z.
+
+        Parameters
+        ----------
+        angle : float, rad
+            From x towards y.
+
+        Returns
+        -------
+        GroundMotion
+        """
         cosine, sine = np.cos(angle), np.sin(angle)
         turn = np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]])
         return replace(self, acceleration=self.acceleration @ turn.T)
 
 
 def ground_motion_cautions(motion: GroundMotion, dt: float, duration: float) -> list[str]:
-    """What looks wrong with a ground motion in a simulation of a duration with steps of dt, in s.
+    """Cautions about a ground motion in a simulation of a duration with steps of dt, in s.
 
     Raises
     ------
     InputError
-        It begins after the end.
+        It begins after the end of the simulation.
     """
     if motion.time[0] >= duration:
         raise InputError(
             "ground motion, time",
             f"a start at {motion.time[0]:g} s",
             f"a start before the end of the simulation ({duration:g} s)",
-            "Let it begin earlier, or simulate longer.",
+            "Reduce the start, or lengthen the simulation.",
         )
     told = []
     if motion.time[0] < 0:
         told.append(
-            f"the record begins at {motion.time[0]:g} s: the simulation starts in the middle of "
-            "it, the structure at rest relative to a ground that moves already"
+            f"the record begins at {motion.time[0]:g} s, so the simulation starts in the middle of "
+            "it, with the structure at rest relative to the moving ground"
         )
     if motion.time[-1] > duration:
         told.append(f"the record ends at {motion.time[-1]:g} s, after the simulation")
     if motion.step > _COARSE:
         told.append(
-            f"samples {motion.step:g} s apart are coarse: linear interpolation flattens what is "
-            f"faster than {1 / (8 * motion.step):.2g} Hz by more than 5 %"
+            f"samples {motion.step:g} s apart are coarse: linear interpolation attenuates "
+            f"frequencies above {1 / (8 * motion.step):.2g} Hz by more than 5 %"
         )
     if dt > 1.001 * motion.step:
         told.append(
-            f"steps of {dt:g} s skip samples that are {motion.step:g} s apart: what is faster than "
-            f"{0.5 / dt:.3g} Hz is sampled as something slower"
+            f"steps of {dt:g} s skip samples that are {motion.step:g} s apart: frequencies above "
+            f"{0.5 / dt:.3g} Hz are aliased"
         )
     if not np.any(motion.acceleration):
-        told.append("the record holds zeros alone; the ground does not move")
+        told.append("the record contains only zeros; the ground does not move")
     velocity = motion.motion(motion.time[-1:])[0, :, 1]
     peak = np.max(np.abs(motion.motion(motion.time)[:, :, 1]))
     if np.max(np.abs(velocity)) > _DRIFTING * peak:
         told.append(
-            f"the ground still moves by {np.max(np.abs(velocity)):.3g} m/s when the record ends, "
-            "and drifts on; baseline: parabolic brings it to rest"
+            f"the ground still moves at {np.max(np.abs(velocity)):.3g} m/s when the record ends, "
+            "and drifts on; use baseline: parabolic to bring it to rest"
         )
     given = motion.acceleration if motion.height is not None else motion.acceleration[None]
     share = np.max(np.abs(motion.corrected - given)) / max(np.max(np.abs(given)), 1e-300)
     if share > _CROOKED:
         told.append(
-            f"the baseline's parabola takes off {share:.0%} of the largest acceleration; the "
-            "record is crooked, or has too few samples to tell its baseline"
+            f"the baseline correction removes {share:.0%} of the largest acceleration; the record "
+            "is distorted, or has too few samples to determine its baseline"
         )
     return told
 
@@ -238,9 +278,9 @@ def ground_motion_cautions(motion: GroundMotion, dt: float, duration: float) -> 
 _COARSE = 0.025
 """s; an eighth of the period of 5 Hz, below which most of an earthquake's energy lies."""
 _DRIFTING = 0.02
-"""Share of the largest velocity that may be left at the end."""
+"""Fraction of the largest velocity that may remain at the end."""
 _CROOKED = 0.1
-"""Share of the largest acceleration that a correction may take off."""
+"""Fraction of the largest acceleration that a correction may remove."""
 
 
 def _numbers(name: str, value: Array) -> Array:
@@ -250,13 +290,13 @@ def _numbers(name: str, value: Array) -> Array:
         array = np.array(np.nan)
     if not np.all(np.isfinite(array)):
         raise InputError(
-            f"ground motion, {name}", "something else", "finite numbers", "Correct them."
+            f"ground motion, {name}", "invalid numbers", "finite numbers", "Correct them."
         )
     return array
 
 
 def _stacked(parts: tuple[Array, Array, Array]) -> Array:
-    """(t, 3, 3) out of three (t, 3)."""
+    """(t, 3, 3) from three (t, 3)."""
     return np.stack(parts, axis=1)
 
 
@@ -276,7 +316,7 @@ def _without_parabola(time: Array, acceleration: Array) -> Array:
     """(n, 3) acceleration less a parabola in time; see ``GroundMotion.baseline``.
 
     The parabola is taken at the samples and linear between them, as the acceleration is, so that
-    the velocity ends at zero to the last digit.
+    the velocity ends at exactly zero.
     """
     share = (time - time[0]) / (time[-1] - time[0])
     degrees = min(3, len(time))
@@ -286,7 +326,7 @@ def _without_parabola(time: Array, acceleration: Array) -> Array:
     step = np.diff(time)
     weight = np.sqrt((np.append(step, 0.0) + np.append(0.0, step)) / 2)[:, None]
     end = by_shape[-1]
-    # One solution ends at zero velocity; what is free beside it is a null space.
+    # One solution ends at zero velocity; the remaining freedom is a null space.
     some = np.outer(end, velocity[-1]) / (end @ end)
     free = np.linalg.svd(end[None, :])[2][1:].T
     left = velocity - by_shape @ some

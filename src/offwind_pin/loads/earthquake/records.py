@@ -1,4 +1,4 @@
-"""Accelerograms out of files: columns of numbers, and PEER's AT2."""
+"""Accelerograms from files: columns of numbers, and PEER's AT2."""
 
 from __future__ import annotations
 
@@ -20,20 +20,21 @@ Unit = Literal["m_per_s2", "cm_per_s2", "g"]
 Axis = Literal["x", "y", "z"]
 
 STANDARD_GRAVITY = 9.80665
-"""m/s2; what accelerograms call g."""
+"""m/s2; the g of accelerograms."""
 UNITS: dict[str, float] = {"m_per_s2": 1.0, "cm_per_s2": 0.01, "g": STANDARD_GRAVITY}
 """By name, in m/s2."""
 AXES = ("x", "y", "z")
 
 STRONG, WEAK = 20.0, 0.5
-"""m/s2; peaks beyond the first are rarer than a wrong unit; those below the second are weak."""
+"""m/s2; peaks above the first are less likely than a wrong unit, those below the second are
+weak."""
 _COARSEST = 0.5
 """s; no accelerogram is sampled as coarsely, so that longer steps are more likely ms."""
 
 
 @dataclass(frozen=True, eq=False)
 class Accelerogram:
-    """Samples out of files: time (n,) in s, acceleration (n, 3) in m/s2, and their origin."""
+    """Samples from files: time (n,) in s, acceleration (n, 3) in m/s2, and their origin."""
 
     time: Array
     acceleration: Array
@@ -50,7 +51,7 @@ def read_columns(path: Path, unit: Unit, components: Sequence[Axis]) -> Accelero
     unit : {"m_per_s2", "cm_per_s2", "g"}
         Of the accelerations.
     components : sequence of {"x", "y", "z"}
-        Axis of each column after the time's.
+        Axis of each column after the time.
 
     Raises
     ------
@@ -67,12 +68,12 @@ def read_columns(path: Path, unit: Unit, components: Sequence[Axis]) -> Accelero
 
 
 def check_components(components: Sequence[str]) -> None:
-    """Refuse axes that are unknown, named twice, or none.
+    """Reject axes that are unknown, duplicate or missing.
 
     Raises
     ------
     InputError
-        With what was named.
+        Naming the axes given.
     """
     unknown = set(components) - set(AXES)
     if unknown or not components or len(set(components)) < len(components):
@@ -85,7 +86,7 @@ _VALUE = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:E[+-]?[0-9]+)?"
 _NAMED_COUNT = re.compile(r"\bNPTS\s*[=:]\s*([0-9]+)(?![0-9.])", re.IGNORECASE)
 _NAMED_STEP = re.compile(rf"\bDT\s*[=:]\s*({_VALUE})\s*([a-z]*)", re.IGNORECASE)
 _UNNAMED = re.compile(rf"^\s*([0-9]+)\s+({_VALUE})\s+NPTS\s*,\s*DT()", re.IGNORECASE)
-"""The two ways in which PEER has written number and interval of the samples."""
+"""The two header formats of PEER for number and interval of the samples."""
 _HEADER_LINES = 10
 _UNIT = re.compile(r"\bUNITS?\s*(?:\bOF\b|[:=])\s*([^\s,;]+)", re.IGNORECASE)
 _AT2_UNITS = {
@@ -152,7 +153,7 @@ def _at2_header(path: Path, lines: list[str]) -> tuple[int, int, float]:
         str(path),
         "no line with NPTS and DT",
         f"one such as 'NPTS= 4000, DT= .0050 SEC' in the first {_HEADER_LINES} lines",
-        "Is it an AT2 file? Columns of numbers go under file.",
+        "Is it an AT2 file? Use file for columns of numbers.",
     )
 
 
@@ -174,36 +175,38 @@ def _at2_unit(path: Path, header: list[str]) -> float:
 
 
 def read_at2_components(paths: Mapping[Axis, Path]) -> Accelerogram:
-    """One AT2 file for each axis; one that ends early is followed by zeros.
+    """One AT2 file per axis; a shorter one is padded with zeros.
 
     Raises
     ------
     InputError
-        As in :func:`read_at2`; intervals that differ.
+        As in :func:`read_at2`; different intervals.
     """
     check_components(list(paths))
     read = {axis: read_at2(path) for axis, path in paths.items()}
     steps = {axis: step for axis, (step, _, _) in read.items()}
     step = next(iter(steps.values()))
     if any(abs(other - step) > 1e-9 * step for other in steps.values()):
-        raise InputError("at2, DT", steps, "one interval for all components", "Resample a file.")
+        raise InputError(
+            "at2, DT", steps, "one interval for all components", "Resample one of the files."
+        )
     count = max(len(values) for _, values, _ in read.values())
     acceleration = np.zeros((count, 3))
     for axis, (_, values, _) in read.items():
         acceleration[: len(values), AXES.index(axis)] = values
-    origin = "; ".join(f"{axis}: {told}" for axis, (_, _, told) in read.items())
+    origin = "; ".join(f"{axis}: {text}" for axis, (_, _, text) in read.items())
     return Accelerogram(step * np.arange(count, dtype=float), acceleration, origin)
 
 
 def unit_cautions(acceleration: Array, unit: Unit) -> list[str]:
-    """What speaks against a unit, given accelerations in m/s2 that came of it."""
+    """Cautions about a unit, given the resulting accelerations in m/s2."""
     peak = float(np.max(np.abs(acceleration)))
     number = f"{peak / UNITS[unit]:.3g}"
     if peak > STRONG:
         likely = "cm/s2" if unit == "m_per_s2" else "m/s2 or cm/s2"
         return [
-            f"a peak of {number} in the unit {unit} is {peak:.3g} m/s2, beyond nearly all that was "
-            f"ever recorded; are the numbers in {likely}?"
+            f"a peak of {number} in the unit {unit} is {peak:.3g} m/s2, more than almost any "
+            f"recorded earthquake; are the numbers in {likely}?"
         ]
     if 0 < peak < WEAK:
         likely = "g" if unit == "m_per_s2" else "m/s2 or g"

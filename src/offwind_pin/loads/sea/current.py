@@ -26,21 +26,21 @@ from offwind_pin.base.definition import (
 )
 
 FASTEST = 10.0
-"""m/s; the fastest tidal streams reach half of it."""
+"""m/s; the fastest tidal streams reach half of this."""
 
 SURFACE_LAYER = 20.0
-"""m below which a current that the wind drives is gone (IEC 61400-3-1:2019, 6.3.3.3.3)."""
+"""Depth in m at which a wind-driven current vanishes (IEC 61400-3-1:2019, 6.3.3.3.3)."""
 
 
 class Current(Definition, kw_only=False):
-    """Water that flows one way.
+    """A steady current in one direction.
 
     Attributes
     ----------
     speed : float, m/s
         At the mean water level.
     direction_deg : float
-        Degrees from +x towards +y, towards which it flows.
+        Direction towards which it flows, in degrees from +x towards +y.
     """
 
     speed: Annotated[NonNegative, Field(le=FASTEST)] = key("speed_m_per_s")
@@ -48,12 +48,33 @@ class Current(Definition, kw_only=False):
 
     @abstractmethod
     def share(self, height: Array, depth: float) -> Array:
-        """(n,) of the speed at heights above the mean water level in m, over a depth in m."""
+        """Velocity profile, as a fraction of the speed.
+
+        Parameters
+        ----------
+        height : (n,) array, m
+            Above the mean water level.
+        depth : float, m
+            Water depth.
+
+        Returns
+        -------
+        (n,) array
+        """
 
     def velocity(self, height: Array, depth: float) -> Array:
-        """(n, 3) in m/s at heights (n,) in m above the mean water level, over a depth in m.
+        """Velocity; above the mean water level that at the level.
 
-        Above the mean water level it is that at it.
+        Parameters
+        ----------
+        height : (n,) array, m
+            Above the mean water level.
+        depth : float, m
+            Water depth.
+
+        Returns
+        -------
+        (n, 3) array, m/s
         """
         angle = np.radians(self.direction_deg)
         towards = np.array([np.cos(angle), np.sin(angle), 0.0])
@@ -71,7 +92,12 @@ class UniformCurrent(Current):
 
 
 class PowerLawCurrent(Current, kw_only=False):
-    """((z + h) / h)^exponent; 1/7 for tides and surges (IEC 61400-3-1:2019, 6.3.3.3.2)."""
+    """Profile ((z + h) / h)^exponent; 1/7 for tides and surges (IEC 61400-3-1:2019, 6.3.3.3.2).
+
+    Attributes
+    ----------
+    exponent : float
+    """
 
     kind: Literal["power_law"] = Field(default="power_law", kw_only=True)
     exponent: Annotated[Positive, Field(le=1)] = 1 / 7
@@ -81,7 +107,13 @@ class PowerLawCurrent(Current, kw_only=False):
 
 
 class SurfaceCurrent(Current, kw_only=False):
-    """Driven by the wind: linear from the surface down to nothing at a reach in m."""
+    """Wind-driven current: linear from the surface down to zero.
+
+    Attributes
+    ----------
+    reach : float, m
+        Depth at which it is zero.
+    """
 
     kind: Literal["surface"] = Field(default="surface", kw_only=True)
     reach: Positive = key("reach_m", default=SURFACE_LAYER)
@@ -91,9 +123,17 @@ class SurfaceCurrent(Current, kw_only=False):
 
 
 class CurrentTable(Current):
-    """Factors of the speed at depths in m below the mean water level, linear in between.
+    """Profile from a table of factors of the speed, linear in between.
 
-    Above the first and below the last they stay; ``speed`` is usually that where the factor is 1.
+    Above the first and below the last depth the factor is constant; ``speed`` is usually the speed
+    where the factor is 1.
+
+    Attributes
+    ----------
+    depth : tuple of float, m
+        Rising depths below the mean water level.
+    factor : tuple of float
+        Factor of the speed at each depth.
     """
 
     kind: Literal["table"] = "table"
@@ -105,15 +145,17 @@ class CurrentTable(Current):
         if len(self.depth) < 2 or len(self.depth) != len(self.factor):
             raise ValueError(
                 f"the table has {len(self.depth)} depths and {len(self.factor)} factors; give two "
-                "depths or more, and a factor for each"
+                "depths or more, and one factor per depth"
             )
         if np.any(np.diff(self.depth) <= 0) or self.depth[0] < 0:
-            raise ValueError("depths must rise strictly from 0; sort them from the surface down")
+            raise ValueError(
+                "depths must increase strictly from 0; sort them from the surface down"
+            )
         fastest = self.speed * max(abs(factor) for factor in self.factor)
         if fastest > FASTEST:
             raise ValueError(
-                f"the current reaches {fastest:g} m/s, above {FASTEST:g} m/s; factors multiply the "
-                "speed, they are not speeds"
+                f"the current reaches {fastest:g} m/s, above {FASTEST:g} m/s; give factors that "
+                "multiply the speed, not speeds"
             )
         return self
 
@@ -127,7 +169,13 @@ SingleCurrent = Annotated[
 
 
 class CurrentSum(Definition, kw_only=False):
-    """Several currents at once, such as a tide and what the wind drives; a list in a file."""
+    """Sum of several currents, such as a tide and a wind-driven current; a list in a file.
+
+    Attributes
+    ----------
+    parts : tuple of Current
+        Currents to add.
+    """
 
     parts: Annotated[tuple[SingleCurrent, ...], Field(min_length=1)]
 
@@ -136,7 +184,19 @@ class CurrentSum(Definition, kw_only=False):
         return self.parts
 
     def velocity(self, height: Array, depth: float) -> Array:
-        """(n, 3) in m/s, see :meth:`Current.velocity`."""
+        """Velocity, see :meth:`Current.velocity`.
+
+        Parameters
+        ----------
+        height : (n,) array, m
+            Above the mean water level.
+        depth : float, m
+            Water depth.
+
+        Returns
+        -------
+        (n, 3) array, m/s
+        """
         return np.sum([part.velocity(height, depth) for part in self.parts], axis=0)
 
 
@@ -153,7 +213,7 @@ CurrentChoice = Annotated[
     | Annotated[CurrentSum, BeforeValidator(_summed), Tag("many")],
     Discriminator(_one_or_many),
 ]
-"""One current, or a list of currents that are added up."""
+"""One current, or a list of currents to be summed."""
 
 
 def mean_velocity(current: Current | CurrentSum, depth: float) -> Array:

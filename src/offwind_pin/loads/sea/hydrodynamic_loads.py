@@ -1,4 +1,4 @@
-"""Loads of the water on the members of a system, strip by strip."""
+"""Hydrodynamic loads on the members of a system, strip by strip."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from offwind_pin.structure.section import inner_diameter, wetted_diameter
 
 @dataclass(frozen=True, eq=False)
 class HydrodynamicModel:
-    """Strips of a turbine in a sea, with all that its forces depend on.
+    """Strips of a turbine in a sea, with everything that the hydrodynamic forces depend on.
 
     Attributes
     ----------
@@ -70,7 +70,7 @@ class HydrodynamicModel:
         return HydrodynamicModel(turbine, strips, surface, water, added, drag)
 
     def loads(self) -> list[KernelLoad]:
-        """Every load of the water, the permanent added mass first."""
+        """All hydrodynamic loads, the permanent added mass first."""
         hydrodynamics = self.turbine.hydrodynamics
         result: list[KernelLoad] = [self.permanent_added_mass(), self.wave_force()]
         if not np.all(self.strips.wet):
@@ -82,21 +82,21 @@ class HydrodynamicModel:
         return result
 
     def permanent_added_mass(self) -> AddedMass:
-        """Of the strips that never fall dry."""
+        """Added mass of the strips that never fall dry."""
         wet = self.strips.wet
         return AddedMass.of(
             self.strips.part(wet), self.turbine.site.water_density, self.added_mass[wet]
         )
 
     def splash_added_mass(self) -> SplashAddedMass:
-        """Of the strips that the surface wets and leaves."""
+        """Added mass of the strips in the splash zone."""
         dry = ~self.strips.wet
         part = self.strips.part(dry)
         mass = self.turbine.site.water_density * self.added_mass[dry] * part.volume
         return SplashAddedMass(part, mass, self.water)
 
     def wave_force(self) -> MorisonForce:
-        """Fluid inertia and drag: of waves, if there are any, and on a structure that moves."""
+        """Fluid inertia and drag, of waves and of the structure's motion."""
         return MorisonForce(
             self.strips,
             self.water,
@@ -106,14 +106,14 @@ class HydrodynamicModel:
         )
 
     def buoyancy(self) -> Buoyancy:
-        """Of the water outside."""
+        """Buoyancy in the water outside."""
         end = wetted_diameter(self.turbine, np.array([self.turbine.site.mudline]))[0]
         weight = self.turbine.site.water_density * self.turbine.site.gravity
         return Buoyancy(self.strips, weight, np.pi / 4 * end**2, self.surface.level, self.water)
 
 
 def wetted_strips(turbine: Turbine, still: float, lowest: float, highest: float) -> Strips:
-    """Strips from the mudline up to what a sea reaches, with their marine growth.
+    """Strips from the mudline to the highest surface, with marine growth.
 
     still, lowest, highest : heights of the surface in m; all equal where waves are not stretched
     """
@@ -128,9 +128,9 @@ def coefficients(
 ) -> tuple[Array, Array]:
     """Added-mass and drag coefficients (n,) of strips at heights (n,) in m in waves.
 
-    Above the mean water level the water moves as it does there. Only free waves have a
-    Keulegan-Carpenter number: orbits of the slowest motions that they bind grow without end with
-    the period, and to the free waves they are a current.
+    Above the mean water level the motion at the level is used. The Keulegan-Carpenter number is
+    that of the free waves alone: orbits of slow bound motions grow without limit with the period,
+    and act as a current on the free waves.
     """
     hydrodynamics = turbine.hydrodynamics
     number = np.zeros(len(height))
@@ -149,7 +149,7 @@ def coefficients(
 def diffraction(
     turbine: Turbine, waves: WaveField | None, water_level: float
 ) -> Callable[[Array], ComplexArray] | None:
-    """Gives the factors (n, m) of each harmonic's acceleration at heights; None for one."""
+    """Function for the factors (n, m) of each harmonic's acceleration at heights; None for 1."""
     if turbine.hydrodynamics.diffraction == "none" or waves is None:
         return None
 
@@ -161,10 +161,10 @@ def diffraction(
 
 
 def contents(turbine: Turbine, inside: FloodedPile) -> list[KernelLoad]:
-    """Mass of the water inside, and where buoyancy acts its pressure on the wall.
+    """Mass of the water inside and, with buoyancy, its pressure on the wall.
 
-    The water moves with the wall across the axis, and stands still along it: its weight rests on
-    the plug, and its pressure on the wall.
+    The water moves with the wall normal to the axis but not along it: its weight rests on the plug,
+    and its pressure acts on the wall.
     """
     plug = turbine.site.mudline if inside.plug is None else inside.plug
     height, length = Strips.between(plug, inside.level)

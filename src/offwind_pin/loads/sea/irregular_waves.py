@@ -1,4 +1,4 @@
-"""Irregular seas drawn from a spectrum, with a prescribed crest if one is asked for."""
+"""Irregular seas generated from a spectrum, optionally with a prescribed crest."""
 
 from __future__ import annotations
 
@@ -37,44 +37,61 @@ from offwind_pin.loads.sea.waves.wave_field import WaveField
 
 FEWEST_COMPONENTS = 10
 HIGHEST_CREST = 2.0
-"""Times the significant height; one crest in 8e13 is higher (Rayleigh: exp(-8 c^2 / Hs^2))."""
+"""Multiple of the significant height; one crest in 8e13 is higher (Rayleigh: exp(-8 c^2 /
+Hs^2))."""
 SHORTEST_REPEAT = 600.0
-"""s, of the waves of a load case, however short it is."""
+"""Shortest repeat period in s of the waves of a load case."""
 
 
 class Crest(Definition, kw_only=False):
-    """A crest of a height in m above the mean water level, at a time in s at the axis."""
+    """A prescribed crest at the axis.
+
+    Attributes
+    ----------
+    height : float, m
+        Above the mean water level.
+    time : float, s
+        When the crest is at the axis.
+    """
 
     height: WaveHeight = key("height_m")
     time: NonNegative = key("time_s")
 
 
 class IrregularWaves(LinearSea, kw_only=False):
-    """Linear waves of a spectrum, drawn by a seed.
+    """Linear waves generated from a spectrum by a seed.
 
-    Give significant_height in m, peak_period in s and, if not 1, peak_shape for a JONSWAP spectrum
-    (with a peak shape of 1 that of Pierson and Moskowitz); or any other ``spectrum``.
+    Give ``significant_height``, ``peak_period`` and, if not 1, ``peak_shape`` for a JONSWAP
+    spectrum; or any other ``spectrum``.
 
     Attributes
     ----------
+    significant_height : float or None, m
+        Of a JONSWAP spectrum.
+    peak_period : float or None, s
+        Of a JONSWAP spectrum.
     seed : int or None
-        Draws phases first, then amplitudes, then directions, each for all components from the
-        lowest frequency up; an option that is left out changes none of the other draws. By default
-        that of the load case, or 1.
+        Seed of phases, amplitudes and directions, drawn in this order, each for all components from
+        the lowest frequency up; an omitted option changes none of the other draws. By default that
+        of the load case, or 1.
     repeat_period : float or None, s
-        After which the waves repeat; at least the simulated time. By default the length of the load
-        case, or 600 s if that is longer.
+        Period after which the waves repeat; at least the simulated time. By default the length of
+        the load case, and at least 600 s.
+    peak_shape : float or "iec"
+        Of a JONSWAP spectrum; 1 gives a Pierson-Moskowitz spectrum.
     direction_deg : float
-        Degrees from +x towards +y, in which they travel, or their mean direction.
+        Direction of travel, or its mean, in degrees from +x towards +y.
+    spectrum : WaveSpectrum or None
+        Any other spectrum, in place of these.
     amplitudes : {"deterministic", "random"}
-        ``"deterministic"``, each component having the variance of the spectrum, or ``"random"``,
-        each having it in the mean and following Rayleigh's distribution, so that the surface is
-        Gaussian and the variance of a realisation varies.
+        ``"deterministic"``: each component has the variance of the spectrum. ``"random"``: it has
+        it in the mean and follows a Rayleigh distribution, so that the surface is Gaussian and the
+        variance of a realisation varies.
     spreading : Spreading or None
-        Of directions, one drawn for each component, so that no two of one frequency interfere and
-        the sea is ergodic; None for long crests.
+        Spreading of directions, one drawn per component, so that no two components of one frequency
+        interfere and the sea is ergodic; None for long crests.
     crest : Crest or None
-        Prescribed crest, or None, see :func:`with_crest`.
+        Prescribed crest, see :func:`with_crest`.
     """
 
     kind: Literal["irregular_waves"] = Field(default="irregular_waves", kw_only=True)
@@ -101,12 +118,12 @@ class IrregularWaves(LinearSea, kw_only=False):
         given = [name for name, is_given in state.items() if is_given]
         if self.spectrum is not None and given:
             raise ValueError(
-                "a spectrum has a height, a period and a shape of its own; put "
-                f"{', '.join(given)} into it, or leave spectrum out"
+                f"{', '.join(given)} cannot be combined with spectrum; set them inside spectrum, "
+                "or leave spectrum out"
             )
         if self.spectrum is None and not (state["significant_height"] and state["peak_period"]):
             raise ValueError(
-                "the waves have no spectrum; give significant_height_m and peak_period_s (both), "
+                "the waves have no spectrum; give both significant_height_m and peak_period_s, "
                 "or a spectrum"
             )
         return self
@@ -121,7 +138,7 @@ class IrregularWaves(LinearSea, kw_only=False):
             if self.crest is not None and self.crest.time > self.repeat_period:
                 raise ValueError(
                     f"the crest's time of {self.crest.time:g} s is after the repeat period of "
-                    f"{self.repeat_period:g} s; let it come earlier"
+                    f"{self.repeat_period:g} s; choose an earlier time"
                 )
         return self
 
@@ -134,11 +151,11 @@ class IrregularWaves(LinearSea, kw_only=False):
 
     @property
     def target(self) -> WaveSpectrum:
-        """The spectrum the waves are drawn from."""
+        """The spectrum from which the waves are generated."""
         if self.spectrum is not None:
             return self.spectrum
         if self.significant_height is None or self.peak_period is None:
-            raise RuntimeError("checked when the sea was made")
+            raise RuntimeError("a sea without a spectrum was not rejected")
         return JonswapSpectrum(self.significant_height, self.peak_period, self.peak_shape)
 
     @property
@@ -156,14 +173,14 @@ class IrregularWaves(LinearSea, kw_only=False):
         Raises
         ------
         InputError
-            Neither the sea nor a load case gives it, or it is too short.
+            The repeat period is missing or too short.
         """
         if self.repeat_period is None:
             raise InputError(
                 "IrregularWaves, field repeat_period",
-                "it is not given",
+                "required key missing",
                 "",
-                "Give it: at least the simulated time, in s.",
+                "Give at least the simulated time, in s.",
             )
         fault = self._fault_of_period(self.repeat_period)
         if fault is not None:
@@ -172,7 +189,7 @@ class IrregularWaves(LinearSea, kw_only=False):
         return self.repeat_period
 
     def _fault_of_period(self, period: float) -> tuple[str, str] | None:
-        """What is wrong with a repeat period in s, and its remedy; None where nothing is."""
+        """Fault of a repeat period in s and its remedy, or None."""
         peak = self.target.peak_period
         if peak is not None and period < 5 * peak:
             return (
@@ -184,24 +201,34 @@ class IrregularWaves(LinearSea, kw_only=False):
             low, high = self.target.band
             return (
                 f"a repeat period of {period:g} s gives {count} components from {low:.3g} to "
-                f"{high:.3g} Hz, and waves need {FEWEST_COMPONENTS} or more",
+                f"{high:.3g} Hz, and at least {FEWEST_COMPONENTS} are required",
                 "lengthen it: components are 1 / repeat_period apart",
             )
         return None
 
     def _harmonics(self, period: float) -> Array:
-        """(m,) of a repeat period in s, in the spectrum's band."""
+        """(m,) harmonics of a repeat period in s, inside the spectrum's band."""
         step = 1 / period
         low, high = self.target.band
         return np.arange(np.ceil(low / step), np.floor(high / step) + 1)
 
     def linear(self, depth: float, gravity: float) -> LinearWaves:
-        """Components 1 / repeat_period apart, over the band of the spectrum.
+        """Free components 1 / repeat_period apart, over the band of the spectrum.
+
+        Parameters
+        ----------
+        depth : float, m
+            From the mudline to the mean water level.
+        gravity : float, m/s2
+
+        Returns
+        -------
+        LinearWaves
 
         Raises
         ------
         InputError
-            A current that blocks them, or a crest that cannot be had.
+            A current that blocks the waves, or an impossible crest.
         """
         period = self.longest_time
         step = 1 / period
@@ -253,25 +280,27 @@ class IrregularWaves(LinearSea, kw_only=False):
 def with_crest(waves: LinearWaves, variance: Array, crest: Crest) -> LinearWaves:
     """Waves with a crest at a given time: NewWave in a random sea.
 
-    To each component is added, as an amplitude at the crest's time, v_j (e / m0 - i omega_j e' /
-    m2), where v_j is the variance that the spectrum gives to it, m0 and m2 = sum omega_j^2 v_j
-    their sums, and e and e' the differences of elevation and slope from those of the crest
-    (Taylor, Jonathan and Harland, J. Offshore Mech. Arct. Eng. 119, 1997). A Gaussian surface then
-    is one of those that have the crest, as probable among them as it should be.
+    Each component is changed, at the time of the crest, by v_j (e / m0 - i omega_j e' / m2), where
+    v_j is its variance in the spectrum, m0 = sum v_j and m2 = sum omega_j^2 v_j, and e and e' the
+    differences of elevation and slope from those of the crest
+    (Taylor, Jonathan and Harland, J. Offshore Mech. Arct. Eng. 119, 1997). A Gaussian surface thus
+    becomes a random member of the surfaces that have this crest.
 
     variance : (m,) of each component in the spectrum, in m2
 
     Raises
     ------
     InputError
-        A crest too high for the sea, or too low to be one there.
+        A crest that is too high for the sea, or too low to be a crest at that time.
     """
     where = "sea, field crest"
     omega, m0 = waves.omega, np.sum(variance)
     largest = HIGHEST_CREST * 4 * float(np.sqrt(m0))
     if crest.height > largest:
         allowed = f"up to twice the significant height ({largest:.3g} m)"
-        raise InputError(f"{where}.height", crest.height, allowed, "Is it the crest's, in m?")
+        raise InputError(
+            f"{where}.height", crest.height, allowed, "Is it the height of the crest in m?"
+        )
     m2 = np.sum(omega**2 * variance)
     phase = np.exp(1j * omega * crest.time)
     now = waves.elevation * phase
@@ -283,7 +312,7 @@ def with_crest(waves: LinearWaves, variance: Array, crest: Crest) -> LinearWaves
             f"{where}.height",
             crest.height,
             "a height that is a crest in this sea at that time",
-            "The surface there would be a trough between two crests: ask for a higher crest, "
-            "another time or another seed.",
+            "The surface would be a trough between two crests: choose a higher crest, another time "
+            "or another seed.",
         )
     return replace(waves, elevation=now * np.conj(phase))

@@ -1,4 +1,4 @@
-"""Water over time: its surface, and its motion at strips in waves and a current."""
+"""Water surface and particle motion over time, in waves and a current."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from offwind_pin.loads.sea.waves.wave_field import WaveField
 Stretching = Literal["none", "vertical", "extrapolation", "wheeler"]
 
 _LEVELS = 96
-"""Heights at which stretched profiles are known; they lie closest at the surface."""
+"""Heights at which stretched profiles are tabulated, densest at the surface."""
 _SLOPE_LEVELS = 16
-"""Of these the nearest to the surface, from which its slopes are taken."""
+"""Number of these nearest to the surface from which slopes are taken."""
 _ROUNDING = 1e-12
-"""Profiles that hold less than this part of the largest are left out."""
+"""Fraction of the largest profile below which profiles are omitted."""
 _BLOCK = 64
-"""Times for which stretched profiles are held in memory at once."""
+"""Number of times for which stretched profiles are in memory at once."""
 
 _VERTICAL, _EXTRAPOLATION, _WHEELER, _EXACT = range(4)
 _RULES = {"vertical": _VERTICAL, "extrapolation": _EXTRAPOLATION, "wheeler": _WHEELER}
@@ -31,12 +31,11 @@ _RULES = {"vertical": _VERTICAL, "extrapolation": _EXTRAPOLATION, "wheeler": _WH
 class WaterSurface:
     """The surface of water at the axis: at a level, or in waves.
 
-    Without stretching, waves act up to the mean water level, and the surface that strips see stays
-    there. With it their kinematics reach up to the moving surface: those of the mean water level as
-    they stand (vertical), continued with the slope that their first order has there
-    (extrapolation; a second order continues as it stands), or those of the height
-    (z - eta) h / (h + eta) (Wheeler, J. Petroleum Tech. 22, 1970, 359). Fields that know their
-    exact surface are taken as they are.
+    Without stretching, waves act up to the mean water level, and the surface of the strips stays
+    there. With stretching, the kinematics extend to the moving surface: constant above the mean
+    water level (vertical), continued with the slope of the first order at the level (extrapolation;
+    the second order is constant), or taken from the height (z - eta) h / (h + eta) (Wheeler, J.
+    Petroleum Tech. 22, 1970, 359). Fields with an exact surface are not stretched.
 
     Attributes
     ----------
@@ -44,9 +43,12 @@ class WaterSurface:
         The waves; None for still water.
     level : float, m
         Mean height of the surface.
-    rule : how the kinematics reach the moving surface; None where the surface stays
-    highest_elevation, lowest_elevation : over a whole period of the waves, in m above the level
-    highest, lowest : of the surface that strips see, in m
+    rule : int or None
+        Stretching rule; None if the surface does not move.
+    highest_elevation, lowest_elevation : float, m
+        Extremes over a whole period of the waves, above the level.
+    highest, lowest : float, m
+        Extremes of the surface of the strips.
     """
 
     def __init__(self, waves: WaveField | None, level: float, stretching: Stretching) -> None:
@@ -71,7 +73,7 @@ class WaterSurface:
         self.lowest = level + (self.lowest_elevation if moves else 0.0)
 
     def elevation(self, time: Array) -> Array:
-        """(t,) surface of the fully grown waves above the mean water level in m."""
+        """(t,) surface of the waves without ramp above the mean water level in m."""
         return np.zeros(len(time)) if self._elevation is None else self._elevation.at(time)[:, 0]
 
     def at(self, time: Array, ramp_factor: Array) -> Array:
@@ -82,11 +84,12 @@ class WaterSurface:
 
 
 class WaterSeries:
-    """Velocity and acceleration of water at n strips, and the surface up to which it wets them.
+    """Velocity and acceleration of water at n strips, and the surface up to which they are wet.
 
     Attributes
     ----------
-    highest_surface, lowest_surface : in m, over a whole period of the waves; equal if it stays
+    highest_surface, lowest_surface : float, m
+        Extremes over a whole period of the waves; equal if the surface does not move.
     """
 
     def __init__(
@@ -97,10 +100,10 @@ class WaterSeries:
         current: Array | None = None,
         inertia_factor: Callable[[Array], ComplexArray] | None = None,
     ) -> None:
-        """height (n,) of the strips in m, current (n, 3) there in m/s.
+        """Heights (n,) of the strips in m, current (n, 3) at them in m/s.
 
-        inertia_factor : gives for heights (k,) in m the factors (k, m) of the amplitudes of the
-            accelerations there, for diffraction
+        inertia_factor : function from heights (k,) in m to the factors (k, m) of the acceleration
+            amplitudes, for diffraction
         """
         above_level = np.array(height, dtype=float) - surface.level
         self._surface = surface
@@ -121,7 +124,7 @@ class WaterSeries:
     def time_inputs(self, time: Array, ramp_factor: Array) -> Array:
         """(t, 1 + 6 n) surface in m, velocity (n, 3) in m/s, acceleration (n, 3) in m/s2.
 
-        ramp_factor (t,) multiplies the waves; the current acts in full.
+        ramp_factor (t,) multiplies the waves; the current acts fully.
         """
         n = len(self._current)
         rows = np.zeros((len(time), 1 + 6 * n))
@@ -135,8 +138,8 @@ class WaterSeries:
 class _Motion:
     """Particle motion as a few profiles over height times sums of harmonics.
 
-    The amplitudes of all harmonics at many heights have few independent profiles over height. The
-    sums belong to profiles, not to heights, and a height needs only to blend the profiles.
+    The amplitudes of all harmonics at many heights have few independent profiles over height. Sums
+    are evaluated per profile, and each height combines the profiles.
     """
 
     def __init__(
@@ -184,10 +187,10 @@ class _Motion:
     def _stretch(
         self, rule: int, sums: Array, slopes: Array, elevation: Array, result: Array
     ) -> None:
-        """The same for a few times, at heights that move with the surface."""
+        """The same for a few times, at heights stretched to the surface."""
         for part, spline in zip(self._parts, self._splines, strict=True):
             cubics = (sums[:, part.sums] @ spline).reshape(len(sums), -1, 4)
-            place = 3 * len(self._height) * part.quantity + part.axis
+            first = 3 * len(self._height) * part.quantity + part.axis
             slope = np.ascontiguousarray(slopes[:, 3 * part.quantity + part.axis])
             _stretched(
                 rule,
@@ -197,13 +200,13 @@ class _Motion:
                 self._level,
                 cubics,
                 slope,
-                place,
+                first,
                 result,
             )
 
 
 class _Part(NamedTuple):
-    """Which sums go with the profiles of one quantity (0 velocity, 1 acceleration) and axis."""
+    """Sums of the profiles of one quantity (0 velocity, 1 acceleration) and axis."""
 
     quantity: int
     axis: int
@@ -275,7 +278,7 @@ def _few_profiles(
 
 
 def _profiles(amplitude: ComplexArray) -> Array:
-    """(r, l) orthonormal profiles of which all columns of (l, m) are made, to rounding."""
+    """(r, l) orthonormal profiles that span all columns of (l, m), to rounding error."""
     columns = np.hstack([amplitude.real, amplitude.imag])
     if columns.shape[1] > columns.shape[0]:
         columns = np.asarray(np.linalg.qr(columns.T, mode="r")).T
@@ -292,13 +295,14 @@ def _stretched(
     level: Array,
     cubics: Array,
     slope: Array,
-    place: int,
+    first: int,
     result: Array,
 ) -> None:
     """Add motions under moving surfaces (t,), from cubics (t, l - 1, 4) between the levels (l,).
 
-    slope : (t,) with which extrapolation goes on above the mean level
-    place : of the first strip's value in (t, 6 n); those of the next strips lie 3 on
+    slope : (t,) of the extrapolation above the mean level
+    first : index of the first strip's value in (t, 6 n); those of the next strips follow at steps
+    of 3
     """
     last = len(level) - 2
     for t in range(len(elevation)):
@@ -319,4 +323,4 @@ def _stretched(
             value = ((c[0] * x + c[1]) * x + c[2]) * x + c[3]
             if beyond > 0:
                 value += beyond * slope[t]
-            result[t, place + 3 * i] += value
+            result[t, first + 3 * i] += value

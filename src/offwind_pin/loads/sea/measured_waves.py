@@ -1,4 +1,4 @@
-"""A measured surface, replayed by linear theory."""
+"""A measured surface, reproduced by linear theory."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from offwind_pin.loads.sea.waves.warnings import irregular_wave_cautions
 from offwind_pin.loads.sea.waves.wave_field import WaveField
 
 MOST_LEFT_OUT = 0.05
-"""Of the record's variance, beyond which cuts give a caution."""
+"""Fraction of the record's variance outside the cuts above which a caution is given."""
 
 
 def _file_or_samples(value: Any) -> str:
@@ -45,13 +45,13 @@ class MeasuredWaves(LinearSea, kw_only=False):
     record : SurfaceRecord or Path
         A file, see :func:`read_surface_record`, or samples, see :meth:`SurfaceRecord.of`.
     low_cut, high_cut : float, Hz
-        Between which the record is taken for free linear waves; below are tides and bound waves,
-        above noise and bound waves again, which linear theory would let decay too slowly, or too
-        fast, with depth.
+        Band in which the record is treated as free linear waves. Below are tides and bound waves,
+        above noise and bound waves, whose decay with depth linear theory would make too slow or too
+        fast.
     direction_deg : float
-        Degrees from +x towards +y, in which they travel.
+        Direction of travel in degrees from +x towards +y.
     taper : float or None, s
-        Over which each end fades; by default a hundredth of the record.
+        Length of the taper at each end; by default a hundredth of the record.
     """
 
     kind: Literal["measured_waves"] = Field(default="measured_waves", kw_only=True)
@@ -77,7 +77,7 @@ class MeasuredWaves(LinearSea, kw_only=False):
         Raises
         ------
         InputError
-            A file that cannot be used, or settings that do not fit what is in it.
+            An invalid file, or settings that do not fit its content.
         """
         if isinstance(self.record, SurfaceRecord):
             return self.record
@@ -120,14 +120,14 @@ class MeasuredWaves(LinearSea, kw_only=False):
 
     @cached_property
     def harmonics(self) -> RecordHarmonics:
-        """Of the record between its cuts, at rest at its ends."""
+        """Harmonics of the record between its cuts, tapered at its ends."""
         return self.samples.harmonics(self.low_cut, self.high_cut, self.taper)
 
     def linear(self, depth: float, gravity: float) -> LinearWaves:
         found, record = self.harmonics, self.samples
         if not np.any(found.elevation):
             received = f"no variance from {self.low_cut:g} to {self.high_cut:g} Hz"
-            allowed = "a band that holds waves"
+            allowed = "a band that contains waves"
             raise InputError("sea, fields low_cut and high_cut", received, allowed, "Widen it.")
         angle = float(np.radians(self.direction_deg))
         return self.free_waves(
@@ -141,23 +141,23 @@ class MeasuredWaves(LinearSea, kw_only=False):
             start.append(f"the record's first time, {record.start:g} s, is time 0")
         return [
             *start,
-            f"a mean of {found.mean:.3g} m and a trend of {found.trend:.3g} m over the record are "
-            "taken off; a tide is given as water level",
-            f"the record's ends fade over {found.fade:.3g} s each, so that it may repeat",
-            f"below {self.low_cut:g} and above {self.high_cut:g} Hz {100 * found.left_out:.2g} % "
-            "of the variance is left out",
+            f"a mean of {found.mean:.3g} m and a trend of {found.trend:.3g} m over the record were "
+            "removed; use water_level_m for a tide",
+            f"both ends of the record are tapered over {found.fade:.3g} s so that it can repeat",
+            f"{100 * found.left_out:.2g} % of the variance, below {self.low_cut:g} and above "
+            f"{self.high_cut:g} Hz, was removed",
         ]
 
     def cautions(self, waves: WaveField) -> list[str]:
         texts, left_out = super().cautions(waves), self.harmonics.left_out
         if self.samples.resampled:
             texts.append(
-                "the record's times are not evenly spaced; it is interpolated linearly at steps "
-                f"of {self.samples.dt:g} s, which flattens its short waves"
+                "the record is not evenly sampled; it is interpolated linearly at steps of "
+                f"{self.samples.dt:g} s, which attenuates its short waves"
             )
         if left_out > MOST_LEFT_OUT:
             texts.append(
-                f"the cuts at {self.low_cut:g} and {self.high_cut:g} Hz leave out "
+                f"the cuts at {self.low_cut:g} and {self.high_cut:g} Hz remove "
                 f"{100 * left_out:.2g} % of the record's variance"
             )
         state = moments(waves)

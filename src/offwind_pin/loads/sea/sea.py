@@ -1,4 +1,4 @@
-"""What the sea is: water at rest or in waves, on a current, at a level."""
+"""Sea states: still water or waves, current, water level."""
 
 from __future__ import annotations
 
@@ -34,20 +34,20 @@ WaveHeight = Annotated[Positive, Field(le=40)]
 Order = Literal[1, 2]
 
 MOST_BLOCKED = 0.05
-"""Of the variance, that an opposing current may stop."""
+"""Largest fraction of the variance that an opposing current may block."""
 
 
 class Sea(Definition):
-    """What all seas have.
+    """Base class of sea states.
 
     Attributes
     ----------
     current : UniformCurrent, PowerLawCurrent, SurfaceCurrent, CurrentTable, CurrentSum or None
-        One current, a :class:`CurrentSum` of several, or None.
+        A current, or a :class:`CurrentSum` of several.
     water_level : float, m
         Mean height of the surface (tide, surge).
     stretching : {"none", "vertical", "extrapolation", "wheeler"}
-        How linear waves act above the mean water level, see :class:`WaterSeries`.
+        How linear waves act above the mean water level, see the theory page on waves.
     """
 
     current: CurrentChoice | None = None
@@ -56,7 +56,19 @@ class Sea(Definition):
 
     @abstractmethod
     def waves(self, depth: float, gravity: float) -> WaveField | None:
-        """The waves over a depth in m under a gravity in m/s2, or None for none."""
+        """Waves of this sea.
+
+        Parameters
+        ----------
+        depth : float, m
+            From the mudline to the mean water level.
+        gravity : float, m/s2
+
+        Returns
+        -------
+        WaveField or None
+            None without waves.
+        """
 
     @property
     @abstractmethod
@@ -64,19 +76,24 @@ class Sea(Definition):
         """Short description of the waves for reports."""
 
     def completed(self, seed: int, duration: float) -> Self:
-        """The same sea with what a load case gives where it is left open.
+        """The same sea, with open settings taken from a load case.
 
         Parameters
         ----------
         seed : int
-            Of the case.
+            Seed of the case.
         duration : float, s
-            Of the case.
+            Length of the case.
+
+        Returns
+        -------
+        Sea
         """
         return self
 
     @property
     def has_waves(self) -> bool:
+        """Whether there are waves."""
         return True
 
     @property
@@ -86,12 +103,12 @@ class Sea(Definition):
 
     @property
     def longest_time(self) -> float | None:
-        """Time in s after which irregular waves repeat; None where that does not matter."""
+        """Time in s after which irregular waves repeat; None for other seas."""
         return None
 
     @property
     def main_period(self) -> float | None:
-        """Period in s of the waves that have most of the variance, if known beforehand."""
+        """Period in s of the waves with most of the variance, if known in advance."""
         return None
 
     @property
@@ -100,25 +117,37 @@ class Sea(Definition):
         return None if self.main_period is None else 1 / self.main_period
 
     def cautions(self, waves: WaveField) -> list[str]:
-        """Sentences about its waves where they look like a mistake, or leave their theory.
+        """Cautions about waves that look like a mistake or exceed the limits of their theory.
 
-        waves : those of first order
+        Parameters
+        ----------
+        waves : WaveField
+            First-order waves.
+
+        Returns
+        -------
+        list of str
         """
         return []
 
     def notes(self) -> list[str]:
-        """Sentences about what was done to the numbers that the user gave."""
+        """Notes on changes that were made to the user's numbers.
+
+        Returns
+        -------
+        list of str
+        """
         return []
 
 
 class DrySea(Definition):
-    """No water, in a load case; in Python the sea is then None."""
+    """No water, in a load case; in Python use None."""
 
     kind: Literal["dry"] = "dry"
 
 
 class StillWater(Sea):
-    """Water without waves: added mass, and drag on a structure that moves."""
+    """Water without waves: added mass, and drag on the moving structure."""
 
     kind: Literal["still_water"] = "still_water"
     stretching: Literal["none"] = "none"
@@ -136,17 +165,16 @@ class StillWater(Sea):
 
 
 class LinearSea(Sea):
-    """What seas of free linear waves have.
+    """Base class of seas of free linear waves.
 
     Attributes
     ----------
     order : {1, 2}
-        1 for linear waves, 2 for their bound components at sums and differences of frequencies as
-        well, see :class:`SecondOrderWaves`.
+        1 for linear waves, 2 to add bound sum- and difference-frequency components.
     doppler : bool
-        Whether the current carries the waves. Then their frequencies are those that a fixed
-        observer sees, and their lengths those on water that flows everywhere as the current does in
-        the mean over the depth, along each of them. The heights stay those given.
+        Whether the current carries the waves. Frequencies are then those of a fixed observer, and
+        wave lengths those in a uniform current equal to the depth mean along each wave. Wave
+        heights are not changed.
     """
 
     order: Order = 1
@@ -156,11 +184,11 @@ class LinearSea(Sea):
     def _doppler_has_a_current(self) -> Self:
         if self.doppler and self.order == 2:
             raise ValueError(
-                "doppler and order 2 exclude each other: waves of second order are those on water "
-                "at rest; leave one of them out"
+                "doppler cannot be combined with order 2, since second-order theory assumes "
+                "water at rest; leave one of them out"
             )
         if self.doppler and self.current is None:
-            raise ValueError("doppler needs a current; give one, or leave doppler out")
+            raise ValueError("doppler requires a current; give one, or leave doppler out")
         return self
 
     def waves(self, depth: float, gravity: float) -> LinearWaves | SecondOrderWaves:
@@ -169,7 +197,18 @@ class LinearSea(Sea):
 
     @abstractmethod
     def linear(self, depth: float, gravity: float) -> LinearWaves:
-        """The free waves of first order, from which those of any higher order follow."""
+        """Free first-order waves, from which higher orders follow.
+
+        Parameters
+        ----------
+        depth : float, m
+            From the mudline to the mean water level.
+        gravity : float, m/s2
+
+        Returns
+        -------
+        LinearWaves
+        """
 
     def free_waves(
         self,
@@ -180,12 +219,30 @@ class LinearSea(Sea):
         gravity: float,
         direction: Array | float,
     ) -> LinearWaves:
-        """Components as :meth:`LinearWaves.free` has them, in the current if that carries them.
+        """Wave components as in :meth:`LinearWaves.free`, carried by the current if ``doppler`` is
+        set.
+
+        Parameters
+        ----------
+        period : float, s
+            After which the waves repeat.
+        harmonic : (m,) array
+            Harmonics of 1 / period.
+        elevation : (m,) complex array, m
+            Complex amplitudes of the surface.
+        depth : float, m
+        gravity : float, m/s2
+        direction : (m,) array or float, rad
+            Towards which the waves travel.
+
+        Returns
+        -------
+        LinearWaves
 
         Raises
         ------
         InputError
-            The current blocks too much of the waves.
+            The current blocks too large a part of the waves.
         """
         if not self.doppler or self.current is None:
             return LinearWaves.free(period, harmonic, elevation, depth, gravity, direction)
@@ -196,27 +253,27 @@ class LinearSea(Sea):
                 "sea, field doppler",
                 f"an opposing current that blocks {100 * waves.blocked:.3g} % of the variance",
                 f"at most {100 * MOST_BLOCKED:g} %",
-                "Such waves cannot reach the structure: check the current and its direction.",
+                "Check the current and its direction.",
             )
         return waves
 
     @property
     def theory_in_words(self) -> str:
-        """What follows the waves' name: nothing for linear waves that no current carries."""
+        """Suffix to the description: empty for linear waves not carried by the current."""
         order = ", to second order" if self.order == 2 else ""
         return f"{order}, carried by the current" if self.doppler else order
 
     def cautions(self, waves: WaveField) -> list[str]:
         if isinstance(waves, LinearWaves) and waves.blocked > 0:
             return [
-                f"the opposing current blocks {100 * waves.blocked:.2g} % of the variance, in the "
-                "shortest waves; they are left out"
+                f"the opposing current blocks the shortest waves, {100 * waves.blocked:.2g} % of "
+                "the variance; they are omitted"
             ]
         return []
 
 
 class RegularWaves(LinearSea, kw_only=False):
-    """A linear wave of one height and period, its crest at the axis at time 0.
+    """A linear regular wave with a crest at the axis at time 0.
 
     Attributes
     ----------
@@ -224,7 +281,7 @@ class RegularWaves(LinearSea, kw_only=False):
         From trough to crest.
     period : float, s
     direction_deg : float
-        Degrees from +x towards +y, in which it travels.
+        Direction of travel in degrees from +x towards +y.
     """
 
     kind: Literal["regular_waves"] = Field(default="regular_waves", kw_only=True)
@@ -257,23 +314,23 @@ class RegularWaves(LinearSea, kw_only=False):
 
 
 class StreamWaves(Sea, kw_only=False):
-    """A steep regular wave by stream function theory, exact up to its surface.
+    """A regular wave by stream function theory, exact up to its surface.
 
-    The wave is carried by the mean over the depth of the current along it; the current's own
-    profile acts on the structure.
+    The wave is carried by the depth mean of the current along it; the current's full profile acts
+    on the structure.
 
     Attributes
     ----------
     height : float, m
         From trough to crest.
     period : float, s
-        As a fixed observer sees it.
+        Period for a fixed observer.
     direction_deg : float
-        Degrees from +x towards +y, in which it travels.
+        Direction of travel in degrees from +x towards +y.
     crest_time : float, s
-        At which its crest is at the axis.
+        Time at which a crest is at the axis.
     order : int or None
-        Of the series, or None for one that is large enough.
+        Order of the series; None chooses a sufficient one.
     """
 
     kind: Literal["stream_function_waves"] = Field(default="stream_function_waves", kw_only=True)

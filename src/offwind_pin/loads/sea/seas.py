@@ -1,4 +1,4 @@
-"""Every sea that a load case can name."""
+"""All sea states of a load case."""
 
 from __future__ import annotations
 

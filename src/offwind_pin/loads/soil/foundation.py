@@ -1,8 +1,8 @@
-"""Foundations behind one interface: where the chain starts, its root restraint, its soil springs.
+"""Foundations: start of the chain, root restraint and soil springs.
 
 Clamped and apparent fixity fix the root of a chain rigidly; coupled springs and a macro-element
-restrain its six joints at the mudline; distributed springs start at the toe, with a restraint there
-and point loads along the pile.
+restrain its six joints at the mudline; with distributed springs the chain starts at the toe, with a
+restraint there and point loads along the pile.
 """
 
 from __future__ import annotations
@@ -31,21 +31,21 @@ class Foundation:
     Attributes
     ----------
     name : str
-        As in the public interface.
+        Name of the kind of foundation.
     base : float, m
         Height of the chain's base.
     root : RootRestraint or None
-        Restraint of the base's six joints, or None where the base does not move.
+        Restraint of the base's six joints; None for a fixed base.
     soil : tuple of PointLoad
         Loads along the embedded pile.
     surrogate : str or None
-        Why its numbers are used in place of others, or None.
+        Why its numbers replace others, or None.
     structure : Turbine or None
-        What is supported, where that is not the turbine as defined.
+        The supported structure, if it is not the turbine as defined.
     facts : dict of str to object
-        Plain data about how it came about.
+        Plain data about its derivation.
     cautions : tuple of str
-        Sentences about curves that are used outside their field base.
+        Cautions about curves used outside their range of validity.
     """
 
     name: str
@@ -60,7 +60,12 @@ class Foundation:
     __repr__ = one_line
 
     def describe(self) -> dict[str, object]:
-        """Plain data for the sidecar: the root restraint and where the soil acts."""
+        """Plain data for the sidecar file: the root restraint and where the soil acts.
+
+        Returns
+        -------
+        dict of str to object
+        """
         return {
             "name": self.name,
             "base_z_m": self.base,
@@ -72,7 +77,7 @@ class Foundation:
 
 
 def clamped(turbine: Turbine) -> Foundation:
-    """Fixed rigidly at the mudline; nothing below exists."""
+    """Fixed rigidly at the mudline; the pile is not modelled."""
     return Foundation("clamped", turbine.site.mudline)
 
 
@@ -90,7 +95,7 @@ def given_stiffness(turbine: Turbine) -> Array:
     Raises
     ------
     InputError
-        None are given, or the mudline is no longer where they belong to.
+        None are given, or scour has moved the mudline to which they refer.
     """
     springs = turbine.soil.coupled_springs
     if springs is None:
@@ -99,14 +104,14 @@ def given_stiffness(turbine: Turbine) -> Array:
         raise InputError(
             f"turbine {turbine.name}, field site.scour_depth_m",
             turbine.site.scour_depth,
-            "0 with soil.coupled_springs, whose 6x6 belongs to the original mudline",
+            "0 with soil.coupled_springs, whose 6x6 refers to the original mudline",
             "Condense the distributed springs of the scoured pile, or use them.",
         )
     return np.array(springs.stiffness)
 
 
 def distributed_springs(turbine: Turbine) -> Foundation:
-    """The pile to its toe, with the soil's springs along it and linear ones at its toe."""
+    """The pile to its toe, with soil springs along it and linear springs at the toe."""
     springs = turbine.soil.distributed_springs
     if springs is None:
         raise missing(turbine, "distributed_springs")
@@ -137,10 +142,10 @@ def distributed_springs(turbine: Turbine) -> Foundation:
 
 
 def missing(turbine: Turbine, field: str) -> InputError:
-    """A block of the turbine's soil that a foundation needs."""
+    """Error for a missing block of the turbine's soil."""
     return InputError(
         f"turbine {turbine.name}, field soil.{field}",
         "nothing",
-        "the numbers of this foundation",
+        "the parameters of this foundation",
         "Add them to the turbine file, or choose another foundation.",
     )

@@ -1,9 +1,10 @@
-"""A macro-element: pile and soil as kinematic-hardening plasticity of the mudline's motion.
+"""A macro-element: pile and soil as kinematic-hardening plasticity at the mudline.
 
-Elements in parallel (Iwan, 1966), each elastic inside an ellipse of its own in forces and moments
-of both planes, and flowing along its pull beyond. Their sum follows a backbone on first loading and
-Masing's rule afterwards. Translation and rotation are taken where they are decoupled, at the depth
-at which a force only shifts the pile (Page et al., Marine Structures 59, 2018, for that choice).
+Parallel elements (Iwan, 1966), each elastic inside its own ellipse in forces and moments of both
+planes, and yielding in the direction of its force beyond. Their sum follows a backbone on first
+loading and Masing's rule afterwards. Translation and rotation are taken where they are decoupled,
+at the depth at which a force only translates the pile (as in Page et al., Marine Structures 59,
+2018).
 """
 
 from __future__ import annotations
@@ -21,8 +22,8 @@ from offwind_pin.base.records import clear, stack_matrix, stack_row
 from offwind_pin.loads.root_restraint import KernelRestraint, restraint_commit, restraint_kernel
 
 _ARM, _COUNT, _ELEMENTS = 36, 37, 38
-"""Places among the constants, after the 6x6 that acts besides: arm of the decoupled translation,
-number of elements, and their stiffnesses in translation and rotation and their limits."""
+"""Indices of the constants after the additional 6x6: arm of the decoupled translation, number of
+elements, their stiffnesses in translation and rotation, and their limits."""
 
 _X, _Y, _Z, _RX, _RY, _RZ = range(6)
 _ROUNDING = 1e-10
@@ -30,7 +31,7 @@ _ROUNDING = 1e-10
 _SOFTENED = 0.05
 """Relative departure of a path's first secant stiffness from that of small motions."""
 _EQUAL = 1e-6
-"""Relative difference of two planes' stiffness that is taken for rounding."""
+"""Relative difference of two planes' stiffness that counts as rounding error."""
 
 
 @inner
@@ -140,14 +141,14 @@ class MacroElement(KernelRestraint):
     Attributes
     ----------
     stiffness : (6, 6) array, N, m, rad
-        Of small motions; the same in both planes.
+        Stiffness for small motions; the same in both planes.
     translation, rotation : (j,) array, N/m, N m/rad
-        Stiffness of the elements at the decoupling depth; their sums are those of ``stiffness``.
+        Stiffness of the elements at the decoupling depth; their sums equal that of ``stiffness``.
     limit : (j,) array
-        Root of twice the energy that an element stores at most, in sqrt(J); infinite for one that
-        never yields.
+        Square root of twice the largest stored energy of an element, in sqrt(J); infinite for one
+        that never yields.
     departure : float
-        Largest relative departure from the path that the element was fitted to.
+        Largest relative departure from the path to which the element was fitted.
     """
 
     stiffness: Array
@@ -161,7 +162,7 @@ class MacroElement(KernelRestraint):
 
     @property
     def memory_size(self) -> int:
-        """Slips of the elements, four each."""
+        """Number of slips of the elements, four each."""
         return 4 * len(self.limit)
 
     @property
@@ -195,20 +196,21 @@ class MacroElement(KernelRestraint):
     def along(
         stiffness: Array, displacement: Array, rotation: Array, force: Array, moment: Array
     ) -> MacroElement:
-        """The element that follows a monotonic loading of the mudline in one plane.
+        """The macro-element that follows a monotonic loading of the mudline in one plane.
 
         Two elements yield at each point of the path, one of them in translation alone. They are
-        fitted to the decoupled force and moment by non-negative least squares, small motions having
-        the given stiffness exactly; past the last point the stiffness left there goes on.
+        fitted to the decoupled force and moment by non-negative least squares, with exactly the
+        given stiffness for small motions; beyond the last point the remaining stiffness is
+        constant.
 
         Parameters
         ----------
         stiffness : (6, 6) array
-            Of small motions.
+            Stiffness for small motions.
         displacement, rotation : (t,) array
-            Of the mudline along x in m and about y in rad, rising.
+            Motion of the mudline along x in m and about y in rad, increasing.
         force, moment : (t,) array, N and N m
-            That belong to them.
+            Force and moment at these motions.
 
         Raises
         ------
@@ -226,7 +228,7 @@ class MacroElement(KernelRestraint):
                 raise InputError(
                     "macro-element's path",
                     f"a decoupled {name} of {values.tolist()}",
-                    "values that rise from zero",
+                    "values that increase from zero",
                     "Give a monotonic loading whose moment has the sign of the force.",
                 )
         for secant in (force[0] / shift[0] / whole[0], turning[0] / rotation[0] / whole[1]):
@@ -234,8 +236,10 @@ class MacroElement(KernelRestraint):
                 raise InputError(
                     "macro-element's path",
                     f"a first point {secant:.3g} times as stiff as the 6x6",
-                    f"1 within {_SOFTENED}: a path that starts with the stiffness of small motions",
-                    "Take 6x6 and path from the same soil; begin with a smaller load; N and m?",
+                    f"1 within {_SOFTENED}: a path that starts with the stiffness for small "
+                    "motions",
+                    "Use the same soil for 6x6 and path, start with a smaller load, and check "
+                    "units.",
                 )
         a, b, limit, departure = _fitted(
             _Path(shift, rotation, force, turning), float(whole[0]), float(whole[1])
@@ -245,7 +249,7 @@ class MacroElement(KernelRestraint):
 
 
 class _Path(NamedTuple):
-    """(t,) decoupled deflections, and the force and moment that belong to them."""
+    """(t,) decoupled deflections, with their force and moment."""
 
     shift: Array
     rotation: Array
@@ -254,12 +258,12 @@ class _Path(NamedTuple):
 
 
 def _fitted(path: _Path, translation: float, rotation: float) -> tuple[Array, Array, Array, float]:
-    """Stiffnesses (j,) of given sums, and limits, of elements that yield along a path.
+    """Stiffnesses (j,) with given sums, and limits, of elements that yield along a path.
 
     At each point of the path two elements yield: one that resists both motions, and one that
-    resists translation alone, which softens sooner. Which share of its pull an element keeps
-    depends on the ratio of its two stiffnesses, so that the linear fit is repeated with the shares
-    of the one before. Last comes the largest relative departure of force and moment.
+    resists translation alone, which softens earlier. The share of its force that an element retains
+    depends on the ratio of its two stiffnesses, so the linear fit is repeated with the shares of
+    the previous one. The last result is the largest relative departure of force and moment.
     """
     count = len(path.shift)
     onset = np.tile(path.shift, 2), np.tile(path.rotation, 2)
@@ -280,14 +284,14 @@ def _fitted(path: _Path, translation: float, rotation: float) -> tuple[Array, Ar
 
 _REPEATS, _SHARE_OF_NEW = 60, 0.3
 _RELUCTANCE = 0.1
-"""Weight of translation alone against relative errors: force and moment share surfaces where they
-can, at the cost of a departure of a thousandth on the benchmark's pile."""
+"""Weight of translation alone against relative errors: force and moment share yield surfaces where
+they can, at the cost of a departure of a thousandth on the benchmark's pile."""
 
 
 def _first_loading(path: _Path, a: Array, b: Array) -> tuple[Array, Array]:
     """Stretches (t, j) in both motions of elements that yield at the points of a path."""
     count = len(path.shift)
-    # Of an element that has no stiffness yet only the ratio of the two matters.
+    # For an element without stiffness so far only the ratio of the two matters.
     a = np.where((a == 0) & (b == 0), 1.0, a)
     limit = np.sqrt(a * np.tile(path.shift, 2) ** 2 + b * np.tile(path.rotation, 2) ** 2)
     limit[count - 1 :: count] = np.inf
@@ -305,9 +309,9 @@ def _first_loading(path: _Path, a: Array, b: Array) -> tuple[Array, Array]:
 def _parallel(
     stretch: Array, force: Array, stiffness: float, reluctance: Array | None = None
 ) -> Array:
-    """(j,) springs of a given sum that, stretched by (t, j), follow forces (t,) best.
+    """(j,) springs with a given sum that, stretched by (t, j), best fit forces (t,).
 
-    A reluctance (j,) weighs what a spring takes of the sum against relative errors of the force.
+    A reluctance (j,) weighs a spring's part of the sum against relative errors of the force.
     """
     from scipy.optimize import nnls
 
@@ -332,7 +336,7 @@ def _of_elements(arm: float, translation: float, rotation: float) -> Array:
 
 
 def check_planes(stiffness: Array) -> None:
-    """Fore-aft and side-side alike, as a round pile has them."""
+    """Check that fore-aft and side-side stiffness are equal, as for a round pile."""
     pairs = (
         (stiffness[_X, _X], stiffness[_Y, _Y]),
         (stiffness[_RX, _RX], stiffness[_RY, _RY]),
@@ -343,6 +347,6 @@ def check_planes(stiffness: Array) -> None:
             raise InputError(
                 "6x6 stiffness at the mudline",
                 f"{one:.7g} in one plane and {other:.7g} in the other",
-                "the same in both planes, as of a round pile",
+                "the same in both planes, as for a round pile",
                 "Use coupled_springs for a foundation that is not round.",
             )

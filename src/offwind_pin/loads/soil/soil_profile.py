@@ -1,4 +1,4 @@
-"""Nodes of a pile in the ground, and the layers and stresses around them."""
+"""Nodes of a pile in the ground, with layers and stresses at them."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class PileNodes:
     length : float, m
         Embedded length of the pile, from the actual mudline to the toe.
     scour : float, m
-        How far the actual mudline lies below the original one; negative for deposition.
+        Depth of the actual mudline below the original one; negative for deposition.
     """
 
     depth: Array
@@ -42,7 +42,17 @@ class PileNodes:
         return self.depth + self.scour
 
     def at(self, places: Places) -> PileNodes:
-        """Those nodes only; places are indices or a mask."""
+        """Some of the nodes.
+
+        Parameters
+        ----------
+        places : int array or bool array
+            Indices or a mask.
+
+        Returns
+        -------
+        PileNodes
+        """
         return PileNodes(self.depth[places], self.diameter[places], self.length, self.scour)
 
     @property
@@ -53,7 +63,7 @@ class PileNodes:
 
 
 def layer_index(layers: tuple[SoilLayer, ...], nodes: PileNodes) -> NDArray[np.intp]:
-    """Number of the layer that each node lies in, (n,).
+    """(n,) index of the layer that contains each node.
 
     Exactly on a boundary it is the layer below; deposited soil is that of the top layer.
     """
@@ -65,7 +75,7 @@ def layer_index(layers: tuple[SoilLayer, ...], nodes: PileNodes) -> NDArray[np.i
 def effective_stress(layers: tuple[SoilLayer, ...], nodes: PileNodes) -> Array:
     """Vertical effective stress at the nodes in Pa, (n,), from the actual mudline down.
 
-    General scour: what is above the actual mudline no longer weighs.
+    General scour: soil above the actual mudline no longer has weight.
     """
 
     def weight_above(depth: Array) -> Array:

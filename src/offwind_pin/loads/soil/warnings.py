@@ -1,4 +1,4 @@
-"""Where a pile leaves the field tests and calculations that its soil curves come from."""
+"""Checks for piles outside the tests and calculations on which soil curves are based."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from offwind_pin.loads.soil.curves.family import API_DIAMETER, family_of
 from offwind_pin.loads.soil.soil_profile import PileNodes, layer_index
 
 NODE_SPACING = 0.3
-"""Distance of soil nodes over the diameter; on the shipped piles the first frequency is then
-within 0.1 % of that of many nodes."""
+"""Largest spacing of soil nodes over the diameter; on the shipped piles the first frequency is then
+within 0.1 % of the converged one."""
 
 
 def cautions(springs: DistributedSprings, nodes: PileNodes) -> list[str]:
-    """Sentences about curves that are used outside their field base, none if there are none."""
+    """Cautions about curves used outside their range of validity."""
     found = [*_node_cautions(springs, nodes), *_shaft_cautions(springs, nodes)]
     if isinstance(springs.curve, LayeredGround):
         layers = springs.curve.layers
@@ -35,8 +35,8 @@ def _node_cautions(springs: DistributedSprings, nodes: PileNodes) -> list[str]:
     if spacing <= NODE_SPACING * float(nodes.diameter.min()):
         return []
     return [
-        f"soil nodes are {spacing:.3g} m apart; more than {NODE_SPACING:g} diameters misses how "
-        "the resistance varies along the pile"
+        f"soil nodes are {spacing:.3g} m apart; with more than {NODE_SPACING:g} diameters the "
+        "variation of the resistance along the pile is not resolved"
     ]
 
 
@@ -46,6 +46,6 @@ def _shaft_cautions(springs: DistributedSprings, nodes: PileNodes) -> list[str]:
     if not used or largest <= API_DIAMETER:
         return []
     return [
-        f"API's t-z curves come from piles of at most {API_DIAMETER:g} m in diameter; this pile "
+        f"API's t-z curves are based on piles of at most {API_DIAMETER:g} m in diameter; this pile "
         f"has {largest:g} m"
     ]

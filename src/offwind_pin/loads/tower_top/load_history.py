@@ -15,7 +15,7 @@ from offwind_pin.loads.point_load import KernelLoad, force_kernel, no_tangents
 
 COMPONENTS = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
 LARGEST_LOAD = 1e10
-"""N or N m, beyond the loads of any turbine."""
+"""N or N m, larger than the loads of any turbine."""
 _COARSEST, _SAMPLED = 0.99, 1000
 """Step in s beyond which files of more than so many rows are more likely in ms."""
 
@@ -26,10 +26,18 @@ TOWER_TOP_LOAD = Channel(
 
 @dataclass(frozen=True, eq=False)
 class LoadHistory:
-    """Samples of (Fx, Fy, Fz, Mx, My, Mz) in N and N m in the inertial frame.
+    """Samples of a load at the yaw bearing.
 
-    time (t,) in s, rising; load (t, 6); origin says where the numbers come from, surrogate why they
-    stand in for others (None for a user's own history).
+    Attributes
+    ----------
+    time : (t,) array, s
+        Rising.
+    load : (t, 6) array, N and N m
+        Fx, Fy, Fz, Mx, My, Mz in the inertial frame.
+    origin : str
+        Where the numbers come from.
+    surrogate : str or None
+        Why they replace the proper ones; None for a user's own history.
     """
 
     time: Array
@@ -50,13 +58,32 @@ class LoadHistory:
             raise InputError("load history, time", time.tolist(), "rising times", "Sort them.")
 
     def mean(self, start: float, end: float) -> Array:
-        """(6,) time average of the linearly interpolated history between two times."""
+        """Time average of the linearly interpolated history.
+
+        Parameters
+        ----------
+        start, end : float, s
+            Ends of the interval.
+
+        Returns
+        -------
+        (6,) array, N and N m
+        """
         inside = self.time[(self.time > start) & (self.time < end)]
         nodes = np.concatenate([[start], inside, [end]])
         return np.trapezoid(self.at(nodes), nodes, axis=0) / (end - start)
 
     def at(self, time: Array | float) -> Array:
-        """(t, 6) load, or (6,) at a single time, by linear interpolation; its ends hold beyond."""
+        """Load by linear interpolation, constant beyond both ends.
+
+        Parameters
+        ----------
+        time : (t,) array or float, s
+
+        Returns
+        -------
+        (t, 6) or (6,) array, N and N m
+        """
         if len(self.time) == 1:
             return self.load[np.zeros(np.shape(time), dtype=np.intp)]
         upper = np.clip(np.searchsorted(self.time, time), 1, len(self.time) - 1)
@@ -65,12 +92,23 @@ class LoadHistory:
         return (1 - share) * self.load[upper - 1] + share * self.load[upper]
 
     def acting(self, yaw_bearing: float, start: float, end: float) -> TowerTopLoad:
-        """The load at a yaw bearing (m), with its mean from a start to an end (s).
+        """The history as a load on a structure.
+
+        Parameters
+        ----------
+        yaw_bearing : float, m
+            Height of the yaw bearing.
+        start, end : float, s
+            Interval over which the mean is taken.
+
+        Returns
+        -------
+        TowerTopLoad
 
         Raises
         ------
         InputError
-            Samples that do not reach from 0 to the end.
+            Samples that do not cover the time from 0 to the end.
         """
         if self.time[0] > 0 or self.time[-1] < end - 1e-9:
             raise InputError(
@@ -93,10 +131,10 @@ def _forces(
 
 @dataclass(frozen=True, eq=False)
 class TowerTopLoad(KernelLoad):
-    """A load history applied at the yaw bearing; its departure from the mean rises at the start.
+    """A load history applied at the yaw bearing; its departure from the mean is ramped.
 
     yaw_bearing : height in m
-    mean : (6,) load that acts in full from the start, in N and N m
+    mean : (6,) load that acts fully from the start, in N and N m
     """
 
     yaw_bearing: float
@@ -135,7 +173,7 @@ class TowerTopLoad(KernelLoad):
 
 
 def constant_load(yaw_bearing: float, load: Array) -> TowerTopLoad:
-    """A load (6,) Fx, Fy, Fz, Mx, My, Mz in N and N m that does not change.
+    """A constant load (6,) Fx, Fy, Fz, Mx, My, Mz in N and N m.
 
     Raises
     ------
@@ -155,10 +193,18 @@ def constant_load(yaw_bearing: float, load: Array) -> TowerTopLoad:
 
 
 def read_load_history(path: Path) -> LoadHistory:
-    """Seven columns t, Fx, Fy, Fz, Mx, My, Mz in s, N and N m, as in OpenFAST's prescribed forces.
+    """Read a file of seven columns t, Fx, Fy, Fz, Mx, My, Mz in s, N and N m.
 
-    For their separators see :func:`read_time_columns`. Between the samples the load is interpolated
-    linearly.
+    This is the format of OpenFAST's prescribed forces; for separators see
+    :func:`read_time_columns`. Between samples the load is interpolated linearly.
+
+    Parameters
+    ----------
+    path : Path
+
+    Returns
+    -------
+    LoadHistory
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""The wind that a rotor meets, over time."""
+"""Rotor-effective wind over time."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ class WindHistory:
     Attributes
     ----------
     interval : float, s
-        Between samples.
+        Interval of the samples.
     speed : (n,) array, m/s
-        From time 0 on; after the last sample the first one follows.
+        Samples from time 0; the first one follows the last.
     mean : float, m/s
-        Wind speed whose steady state the rotor starts from.
+        Wind speed of the steady state in which the rotor starts.
     origin : str
         Where the numbers come from.
     """
@@ -38,7 +38,10 @@ class WindHistory:
             raise InputError("wind history", speed.shape, "finite speeds (n,)", "Correct them.")
         if not (np.isfinite(self.interval) and self.interval > 0):
             raise InputError(
-                "wind history, interval", self.interval, "a positive number of s", "Correct it."
+                "wind history, interval",
+                self.interval,
+                "a positive number of seconds",
+                "Correct it.",
             )
         if not (np.isfinite(self.mean) and self.mean > 0):
             raise InputError("wind history, mean", self.mean, "a positive speed", "Correct it.")
@@ -57,5 +60,5 @@ class WindHistory:
 
 
 def constant_wind(speed: float) -> WindHistory:
-    """A wind that does not change, in m/s."""
+    """A constant wind speed in m/s."""
     return WindHistory(1.0, np.array([speed]), speed, f"constant wind of {speed:g} m/s")

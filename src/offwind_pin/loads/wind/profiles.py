@@ -18,29 +18,45 @@ from offwind_pin.base.definition import (
 from offwind_pin.base.errors import InputError
 
 LOWEST = 1.0
-"""Height in m above the water below which a profile stays as it is there: waves are in its way."""
+"""Height in m above the water below which a profile is constant, since waves disturb it."""
 
 GUST_PERIOD = 10.5
 """Length of the extreme operating gust in s (IEC 61400-1:2005, 6.3.2.2)."""
 
 
 class PowerLaw(Definition, kw_only=False):
-    """Wind that grows with a power of height, (z / z_ref)^exponent (IEC 61400-1:2005, Eq. 10).
+    """Wind profile (z / z_ref)^exponent (IEC 61400-1:2005, Eq. 10).
 
-    IEC 61400-3-1 takes an exponent of 0.14 for the normal wind at sea.
+    IEC 61400-3-1 uses an exponent of 0.14 for the normal wind at sea.
+
+    Attributes
+    ----------
+    exponent : float
     """
 
     kind: Literal["power_law"] = Field(default="power_law", kw_only=True)
     exponent: Annotated[NonNegative, Field(le=1)] = 0.14
 
     def ratio(self, height: Array, reference: float) -> Array:
-        """(n,) speed at heights above the water over that at the reference height, both in m."""
+        """Wind speed over that at the reference height.
+
+        Parameters
+        ----------
+        height : (n,) array, m
+            Above the water.
+        reference : float, m
+            Reference height above the water.
+
+        Returns
+        -------
+        (n,) array
+        """
         above = np.maximum(height, LOWEST) / reference
         return np.asarray(above**self.exponent)
 
 
 class LogLaw(Definition, kw_only=False):
-    """Wind that grows with the logarithm of height, ln(z / z0) / ln(z_ref / z0).
+    """Wind profile ln(z / z0) / ln(z_ref / z0).
 
     Attributes
     ----------
@@ -52,7 +68,19 @@ class LogLaw(Definition, kw_only=False):
     roughness: Annotated[Positive, Field(lt=LOWEST / 2)] = key("roughness_m")
 
     def ratio(self, height: Array, reference: float) -> Array:
-        """(n,) speed at heights above the water over that at the reference height, both in m."""
+        """Wind speed over that at the reference height.
+
+        Parameters
+        ----------
+        height : (n,) array, m
+            Above the water.
+        reference : float, m
+            Reference height above the water.
+
+        Returns
+        -------
+        (n,) array
+        """
         above = np.log(np.maximum(height, LOWEST) / self.roughness)
         return np.asarray(above / np.log(reference / self.roughness))
 
@@ -70,7 +98,7 @@ class ExtremeOperatingGust(Definition, kw_only=False):
     size : float, m/s
         V_gust.
     start : float, s
-        When it begins.
+        Start of the gust.
     period : float, s
         T.
     """
@@ -89,18 +117,31 @@ class ExtremeOperatingGust(Definition, kw_only=False):
         turbulence: float,
         start: float,
     ) -> ExtremeOperatingGust:
-        """The gust of a turbine class, V_gust = min(1.35 (V_e1 - V_hub), 3.3 s / (1 + 0.1 D / L)).
+        """Gust of a turbine class, V_gust = min(1.35 (V_e1 - V_hub), 3.3 s / (1 + 0.1 D / L)).
 
-        V_e1 = 0.8 * 1.4 V_ref at hub height (Eq. 14 and 15), s = I_ref (0.75 V_hub + 5.6 m/s)
-        (Eq. 11), and L = 0.7 z_hub, 42 m at most (Eq. 5).
+        V_e1 = 0.8 * 1.4 V_ref at hub height (Eq. 14 and 15), s = I_ref (0.75 V_hub + 5.6 m/s) (Eq.
+        11), and L = 0.7 z_hub, 42 m at most (Eq. 5).
 
-        hub_speed, reference_speed : V_hub and V_ref in m/s; hub_height, rotor_diameter : in m;
-        turbulence : I_ref, a fraction
+        Parameters
+        ----------
+        hub_speed : float, m/s
+            V_hub.
+        hub_height, rotor_diameter : float, m
+        reference_speed : float, m/s
+            V_ref.
+        turbulence : float
+            I_ref, a fraction.
+        start : float, s
+            Start of the gust.
+
+        Returns
+        -------
+        ExtremeOperatingGust
 
         Raises
         ------
         InputError
-            A number that is not positive, or a wind above the extreme one.
+            A number that is not positive, or a wind above the extreme wind speed.
         """
         for name, value in (
             ("hub_speed", hub_speed),
@@ -113,7 +154,7 @@ class ExtremeOperatingGust(Definition, kw_only=False):
                 raise InputError(f"gust, {name}", value, "a positive number", "Correct it.")
         of_a_year = 0.8 * 1.4 * reference_speed
         if hub_speed >= of_a_year:
-            allowed = f"less than the extreme wind of a year ({of_a_year:g} m/s)"
+            allowed = f"less than the one-year extreme wind speed ({of_a_year:g} m/s)"
             raise InputError("gust, hub_speed", hub_speed, allowed, "Lower it.")
         scatter = turbulence * (0.75 * hub_speed + 5.6)
         scale = min(0.7 * hub_height, 42.0)
@@ -123,14 +164,23 @@ class ExtremeOperatingGust(Definition, kw_only=False):
         return ExtremeOperatingGust(size, start)
 
     def at(self, time: Array) -> Array:
-        """(t,) departure from the mean wind in m/s."""
+        """Departure from the mean wind.
+
+        Parameters
+        ----------
+        time : (t,) array, s
+
+        Returns
+        -------
+        (t,) array, m/s
+        """
         phase = np.clip((np.asarray(time) - self.start) / self.period, 0.0, 1.0)
         shape = np.sin(3 * np.pi * phase) * (1 - np.cos(2 * np.pi * phase))
         return np.asarray(-0.37 * self.size * shape)
 
 
 class WindSeries(Definition, kw_only=False):
-    """Departures of the wind from its mean, linear in between and constant beyond both ends.
+    """Departures of the wind from its mean, linear between samples and constant beyond both ends.
 
     Attributes
     ----------
@@ -148,14 +198,23 @@ class WindSeries(Definition, kw_only=False):
         if len(self.time) != len(self.departure):
             raise ValueError(
                 f"the series has {len(self.time)} times and {len(self.departure)} departures; give "
-                "one departure for each time"
+                "one departure per time"
             )
         if np.any(np.diff(self.time) <= 0):
-            raise ValueError("the times do not rise strictly; sort them")
+            raise ValueError("the times do not increase strictly; sort them")
         return self
 
     def at(self, time: Array) -> Array:
-        """(t,) departure from the mean wind in m/s."""
+        """Departure from the mean wind.
+
+        Parameters
+        ----------
+        time : (t,) array, s
+
+        Returns
+        -------
+        (t,) array, m/s
+        """
         return np.interp(time, self.time, self.departure)
 
 

@@ -1,8 +1,8 @@
-"""The wind that a turning rotor averages: turbulence, shear and tower shadow, as blades sample it.
+"""Rotor-effective wind: turbulence, shear and tower shadow as sampled by the rotating blades.
 
-Along the blades' path u(r, psi, t) is a sum over harmonics n of the azimuth. B equal blades keep
-those whose n is a multiple of B and shift their spectra by n times the rotor speed: energy at low
-frequencies goes to 3P, 6P, 9P (Kristensen and Frandsen 1982; Sorensen, Hansen and Rosas 2002).
+On the blades' path u(r, psi, t) is a sum over harmonics n of the azimuth. B equal blades retain the
+harmonics whose n is a multiple of B and shift their spectra by n times the rotor speed: energy at
+low frequencies moves to 3P, 6P, 9P (Kristensen and Frandsen 1982; Sorensen, Hansen and Rosas 2002).
 """
 
 from __future__ import annotations
@@ -32,13 +32,13 @@ TURBULENCE_CLASSES = {"A": 0.16, "B": 0.14, "C": 0.12}
 """Expected turbulence intensity at 15 m/s (IEC 61400-1 ed. 3, Table 1)."""
 
 HIGHEST_ORDER = 4
-"""Multiples of the blade-passing frequency that are kept; the next hold less than 1 % of the
+"""Multiples of the blade-passing frequency that are included; higher ones have less than 1 % of the
 variance."""
 
 _COHERENCE_DECAY = 12.0
 _COHERENCE_OFFSET = 0.12
 _ROOT_SHARE = 0.05
-"""Of the radius, where the blades begin to carry thrust."""
+"""Fraction of the radius at which the blades begin to carry thrust."""
 _RADII, _DISTANCES, _ANGLES = 12, 16, 80
 """Points of the quadratures; they resolve harmonics up to the twentieth."""
 _LINES = 80
@@ -75,7 +75,8 @@ class Turbulence:
         return self.deviation**2 * 4 * reduced / (1 + 6 * frequency * reduced) ** (5 / 3)
 
     def coherence(self, frequency: Array | float, distance: Array) -> Array:
-        """Of two points a distance in m apart, across the wind (IEC 61400-1 ed. 3, Eq. B.16)."""
+        """Coherence of two points a distance in m apart across the wind (IEC 61400-1 ed. 3,
+        B.16)."""
         passing = frequency * distance / self.wind_speed
         apart = _COHERENCE_OFFSET * distance / self.length
         return np.exp(-_COHERENCE_DECAY * np.hypot(passing, apart))
@@ -92,11 +93,14 @@ def normal_turbulence(wind_speed: float, turbulence_class: str) -> float:
     Raises
     ------
     InputError
-        No class A, B or C.
+        A class other than A, B and C.
     """
     if turbulence_class not in TURBULENCE_CLASSES:
         raise InputError(
-            "turbulence class", turbulence_class, "A, B or C", "Or give the intensity itself."
+            "turbulence class",
+            turbulence_class,
+            "A, B or C",
+            "Choose a class, or give turbulence_intensity.",
         )
     return TURBULENCE_CLASSES[turbulence_class] * (0.75 * wind_speed + 5.6)
 
@@ -108,10 +112,10 @@ class RotorTurbulence:
     Attributes
     ----------
     turbulence : Turbulence
-        Of the wind.
+        Turbulence of the wind.
     radius : float, m
     blades : int
-        How many.
+        Number of blades.
     rotor_speed : float, rad/s
     root : float, m
         Radius where the blades begin to carry thrust.
@@ -125,15 +129,16 @@ class RotorTurbulence:
 
     @property
     def blade_passing_frequency(self) -> float:
-        """In Hz."""
+        """Blade-passing frequency in Hz."""
         return self.blades * self.rotor_speed / (2 * np.pi)
 
     def averaging(self, frequency: Array, order: int) -> Array:
-        """(f,) share of the point spectrum in one harmonic of the azimuth, at frequencies in Hz.
+        """(f,) fraction of the point spectrum in one harmonic of the azimuth, at frequencies in Hz.
 
         F_n = int int w(r) w(s) 1/pi int_0^pi coh(f, d) cos(n psi) dpsi dr ds, with d the distance
-        of (r, 0) and (s, psi). Each blade's thrust is spread over its radius like r (a disc under
-        an even pressure), so that w(r) = 2 r / (R^2 - r0^2). All points crowd where d is small.
+        of (r, 0) and (s, psi). Each blade's thrust is distributed over its radius like r (a disc
+        under uniform pressure), so that w(r) = 2 r / (R^2 - r0^2). Points are densest where d is
+        small.
         """
         r, s, psi, weight = self._points()
         distance = np.sqrt((r - s) ** 2 + 4 * r * s * np.sin(psi / 2) ** 2)
@@ -143,7 +148,7 @@ class RotorTurbulence:
         )
 
     def harmonic_spectrum(self, frequency: Array, order: int) -> Array:
-        """(f,) one-sided spectrum S_n = S F_n of a harmonic in the frame that turns, (m/s)^2/Hz."""
+        """(f,) one-sided spectrum S_n = S F_n of a harmonic in the rotating frame, (m/s)^2/Hz."""
         from scipy.interpolate import CubicSpline
 
         lowest = 1e-3 * self.turbulence.wind_speed / self.turbulence.length
@@ -183,13 +188,13 @@ class RotorTurbulence:
 
 
 def _gauss(count: int) -> tuple[Array, Array]:
-    """Points and weights of Gauss and Legendre from 0 to 1."""
+    """Gauss-Legendre points and weights from 0 to 1."""
     points, weights = np.polynomial.legendre.leggauss(count)
     return (points + 1) / 2, weights / 2
 
 
 class RotorWind(Definition, kw_only=False):
-    """Settings of the wind that a rotor meets.
+    """Settings of the wind at a rotor.
 
     Attributes
     ----------
@@ -203,7 +208,7 @@ class RotorWind(Definition, kw_only=False):
     tower_shadow : bool
         Whether the tower slows the wind in front of it.
     seed : int or None
-        Of the phases; by default that of the load case, or 1.
+        Seed of the phases; by default that of the load case, or 1.
     turbulence_class : {"A", "B", "C"} or None
         IEC 61400-1's A, B or C, in place of the turbulence intensity.
     """
@@ -219,8 +224,8 @@ class RotorWind(Definition, kw_only=False):
     def _one_turbulence(self) -> Self:
         if (self.turbulence_class is None) == (self.turbulence_intensity is None):
             raise ValueError(
-                "the turbulence is given twice or not at all; give either turbulence_class (A, B "
-                "or C) or turbulence_intensity"
+                "turbulence_class and turbulence_intensity are both given, or neither is; give one "
+                "of them"
             )
         return self
 
@@ -232,16 +237,46 @@ class RotorWind(Definition, kw_only=False):
         return self.turbulence_intensity or 0.0
 
     def completed(self, seed: int) -> Self:
-        """The same, drawn by the seed of a load case where it has none of its own."""
+        """The same wind, with the seed of a load case if it has none of its own.
+
+        Parameters
+        ----------
+        seed : int
+            Seed of the case.
+
+        Returns
+        -------
+        RotorWind
+        """
         return self if self.seed is not None else self.replace(seed=seed)
 
     def turbulence(self, disc: RotorDisc) -> Turbulence:
-        """Of this wind at the hub's height."""
+        """Turbulence of this wind at hub height.
+
+        Parameters
+        ----------
+        disc : RotorDisc
+            The rotor.
+
+        Returns
+        -------
+        Turbulence
+        """
         deviation = self.intensity * self.wind_speed
         return Turbulence(self.wind_speed, deviation, scale_parameter(disc.hub_height))
 
     def of_rotor(self, disc: RotorDisc) -> RotorTurbulence:
-        """How a rotor averages it."""
+        """How a rotor averages this wind.
+
+        Parameters
+        ----------
+        disc : RotorDisc
+            The rotor.
+
+        Returns
+        -------
+        RotorTurbulence
+        """
         return RotorTurbulence(
             self.turbulence(disc),
             disc.radius,
@@ -253,10 +288,23 @@ class RotorWind(Definition, kw_only=False):
     def generate(self, disc: RotorDisc, *, repeat_period: float, dt: float = 0.02) -> WindHistory:
         """A rotor-effective wind history, periodic in ``repeat_period`` seconds.
 
-        Its mean is the mean wind exactly: what shear and shadow change in it is left out, since
-        tables of the thrust coefficient are over the wind at the hub. Turbulence has random phases
-        on the harmonics of the period; rotor speed is rounded so that the blades pass a whole
-        number of times in it. Samples are at most dt apart.
+        Its mean is exactly the mean wind: the effect of shear and shadow on the mean is omitted,
+        since tables of the thrust coefficient are over the wind at the hub. Turbulence has random
+        phases on the harmonics of the period; rotor speed is rounded so that the blades pass a
+        whole number of times in it. Samples are at most dt apart.
+
+        Parameters
+        ----------
+        disc : RotorDisc
+            The rotor.
+        repeat_period : float, s
+            After which the wind repeats.
+        dt : float, s
+            Largest distance of samples.
+
+        Returns
+        -------
+        WindHistory
 
         Raises
         ------
@@ -268,7 +316,7 @@ class RotorWind(Definition, kw_only=False):
         passing = rotor.blade_passing_frequency
         highest = (HIGHEST_ORDER + 1) * passing
         if not (np.isfinite(repeat_period) and repeat_period > 1 / passing):
-            allowed = f"more than {1 / passing:.3g} s, in which the blades pass once"
+            allowed = f"more than {1 / passing:.3g} s, the time between two blades"
             raise InputError("rotor wind, repeat_period", repeat_period, allowed, "Lengthen it.")
         if not 0 < dt < 0.5 / highest:
             limits = f"more than 0 and less than {0.5 / highest:.3g} s"
@@ -289,18 +337,27 @@ class RotorWind(Definition, kw_only=False):
         return WindHistory(repeat_period / count, speed, self.wind_speed, self._describe())
 
     def tones(self, disc: RotorDisc) -> ComplexArray:
-        """(HIGHEST_ORDER,) complex amplitudes in m/s at multiples of the blade-passing frequency.
+        """Complex amplitudes at multiples of the blade-passing frequency.
 
         One blade points upwards at time 0.
+
+        Parameters
+        ----------
+        disc : RotorDisc
+            The rotor.
+
+        Returns
+        -------
+        (HIGHEST_ORDER,) complex array, m/s
         """
         azimuth = 2 * np.pi * np.arange(720) / 720
         steady = self._steady(disc, azimuth) - self.wind_speed
         harmonics = 2 * np.fft.fft(steady) / len(azimuth)
-        # A real signal with the amplitude c at order n is Re(c exp(i n psi)).
+        # A real signal of amplitude c at order n is Re(c exp(i n psi)).
         return harmonics[disc.blades * np.arange(1, HIGHEST_ORDER + 1)]
 
     def _steady(self, disc: RotorDisc, azimuth: Array) -> Array:
-        """(a,) mean wind in m/s over a blade that stands at an azimuth, 0 upwards."""
+        """(a,) mean wind in m/s over a blade at an azimuth, 0 upwards."""
         root = _ROOT_SHARE * disc.radius
         x, weight = _gauss(64)
         r = root + (disc.radius - root) * x
@@ -318,7 +375,7 @@ class RotorWind(Definition, kw_only=False):
 
     @property
     def wind_seed(self) -> int:
-        """What draws it: its own seed, or 1."""
+        """Seed of the phases: its own, or 1."""
         return 1 if self.seed is None else self.seed
 
     def _describe(self) -> str:

@@ -1,4 +1,4 @@
-"""The thrust of the turbine's own rotor in a turbulent wind, as a load case names it."""
+"""Thrust of the turbine's rotor in a turbulent wind, as defined in a load case."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from offwind_pin.loads.wind.rotor_thrust import CONTROL_TIME, Control
 
 
 class RotorLoad(RotorWind):
-    """A wind, and how rotor and controller follow it, see :class:`RotorThrust`.
+    """A wind, and the response of rotor and controller to it, see :class:`RotorThrust`.
 
     Attributes
     ----------
     control : {"lagged", "instant"}
-        ``"lagged"`` or ``"instant"``.
+        See :class:`RotorThrust`.
     control_time : float, s
-        With which a lagged thrust coefficient follows the wind.
+        Time constant of a lagged thrust coefficient.
     inflow_lag : bool
-        Whether the wake follows with a lag of its own.
+        Whether the wake follows the wind with its own lag.
     """
 
     kind: Literal["rotor"] = "rotor"

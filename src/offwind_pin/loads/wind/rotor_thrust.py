@@ -1,8 +1,8 @@
-"""Rotor thrust in the wind that the moving hub meets, from a table of the thrust coefficient.
+"""Rotor thrust in the wind relative to the moving hub, from a table of the thrust coefficient.
 
 The thrust acts along the shaft. The shaft crosses the tower's axis, so that the force at the apex
-and the same force at the crossing are one load, and every point of the shaft has the same velocity
-along it: one point on the axis does for both, without an arm and without an approximation.
+and the same force at the crossing are equivalent, and every point of the shaft has the same
+velocity along it: one point on the axis represents both exactly, without an arm.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ from offwind_pin.loads.wind.thrust_table import (
 Control = Literal["lagged", "instant"]
 
 CONTROL_TIME = 7.5
-"""s, after which rotor speed and pitch have followed a change of the wind. Below rated it is the
+"""s, in which rotor speed and pitch follow a change of the wind. Below rated it is the
 rotor's inertia: J dOmega/dt = P / Omega - k Omega^2 about the best tip-speed ratio, where the power
 coefficient is flat, gives J Omega^2 / (3 P), 7.5 s for the shipped IEA 10 MW rotor at 9 m/s. Above
 rated the reference controllers' pitch loop has 0.6 rad/s (Jonkman et al. 2009, NREL/TP-500-38060,
@@ -49,11 +49,11 @@ chapter 7)."""
 
 _COSINE, _SINE, _PRESSURE, _MEAN, _CONTROL_TIME, _INFLOW_TIME, _MEAN_INDUCED, _TABLE = range(8)
 """Columns of the constants: cosine and sine of the shaft's tilt, rho A / 2, mean wind, the two time
-constants, the mean's induced velocity; from the last on the numbers of the thrust table."""
+constants, the induced velocity of the mean; the thrust table starts at the last."""
 
 _TIME, _WIND, _OPERATING, _DRIVEN, _INDUCED = range(5)
-"""Memory, as of the last step: time; relative wind, operating point of the controller, induced
-velocity that the wake heads for, induced velocity: departures from the mean's, in m/s."""
+"""Memory, as of the last step: time; then departures from the mean in m/s of relative wind,
+operating point of the controller, target of the induced velocity, induced velocity."""
 
 _TIME_INPUT, _WIND_INPUT = range(2)
 """Time inputs: time, and wind speed along the shaft."""
@@ -62,7 +62,7 @@ _V = VELOCITY.start
 
 @inner
 def lag_weights(step: float, time_constant: float) -> tuple[float, float, float]:
-    """Of the last output and of the last and the new input of a first-order lag.
+    """Weights of the last output, the last input and the new input of a first-order lag.
 
     Exact for an input that is linear within the step.
     """
@@ -78,7 +78,8 @@ def lag_weights(step: float, time_constant: float) -> tuple[float, float, float]
 
 @kernel
 def _shaft(axis: Array, cosine: float, sine: float) -> tuple[float, float, float, float]:
-    """Direction of the shaft on a tilted axis, and the length that makes its level part a unit."""
+    """Direction of the shaft on a tilted axis, and the length that normalises its horizontal
+    part."""
     length = np.sqrt(axis[0] ** 2 + axis[2] ** 2)
     return (
         cosine * axis[2] / length + sine * axis[0],
@@ -192,23 +193,25 @@ def _commit(motion: Array, constants: Array, time_inputs: Array, memory: Array) 
 
 @dataclass(frozen=True, eq=False)
 class RotorThrust(KernelLoad):
-    """Thrust of a running rotor on the structure that carries it.
+    """Thrust of an operating rotor on its structure.
 
     Attributes
     ----------
     disc : RotorDisc
-        Where the rotor is.
+        Geometry of the rotor.
     wind : WindHistory
-        That it meets; its departure from the mean rises at the start.
+        Wind at the rotor; its departure from the mean is ramped.
     control : {"lagged", "instant"}
-        ``lagged``: the thrust coefficient is that of the relative wind through a first-order lag,
-        so that to a fast motion rotor speed and pitch stand still, and the damping is rho A Ct U;
-        ``instant``: it is that of the relative wind at once, and the damping is the slope of the
+        ``lagged``: the thrust coefficient follows the relative wind through a first-order lag, so
+        that rotor speed and pitch do not respond to fast motion, and the damping is rho A Ct U;
+        ``instant``: it follows the relative wind without lag, and the damping is the slope of the
         thrust curve, negative above rated.
     control_time : float, s
-        Of that lag.
+        Time constant of that lag.
     inflow_lag : bool
-        Whether the wake follows with a lag of its own.
+        Whether the wake follows the wind with its own lag.
+    name : str
+        Short, unique in a system.
     """
 
     disc: RotorDisc
@@ -234,7 +237,7 @@ class RotorThrust(KernelLoad):
                 "rotor thrust, control_time",
                 self.control_time,
                 "a positive number of seconds",
-                "For none choose control instant.",
+                "Use control instant for no lag.",
             )
         first, *_, last = self.disc.rotor.thrust_coefficient.wind_speed
         if not first <= self.wind.mean <= last:
@@ -242,12 +245,12 @@ class RotorThrust(KernelLoad):
                 "rotor thrust, mean wind speed in m/s",
                 self.wind.mean,
                 f"{first} to {last}, the turbine's table of the thrust coefficient",
-                "Choose a wind in which the rotor runs, or lengthen the table.",
+                "Choose a wind in which the rotor operates, or extend the table.",
             )
 
     @property
     def height(self) -> Array:
-        """Where the shaft crosses the tower's axis, above the yaw bearing."""
+        """Height in m where the shaft crosses the tower's axis, above the yaw bearing."""
         return np.array([self.disc.shaft_height])
 
     @cached_property
@@ -270,7 +273,17 @@ class RotorThrust(KernelLoad):
         return 5 if self.control == "lagged" or self.inflow_lag else 0
 
     def time_inputs(self, time: Array, ramp_factor: Array) -> Array:
-        """(t, 2) time, and wind speed along the shaft."""
+        """Time and wind speed along the shaft.
+
+        Parameters
+        ----------
+        time : (t,) array, s
+        ramp_factor : (t,) array
+
+        Returns
+        -------
+        (t, 2) array
+        """
         mean = self.wind.mean
         return np.column_stack([time, mean + ramp_factor * (self.wind.at(time) - mean)])
 
@@ -278,19 +291,43 @@ class RotorThrust(KernelLoad):
         return {"rotor_wind_origin": self.wind.origin, "rotor_control": self.control}
 
     def steady_load(self) -> Array:
-        """(6,) load at the yaw bearing in the mean wind on an upright axis, in N and N m."""
+        """Load at the yaw bearing in the mean wind on an upright axis.
+
+        Returns
+        -------
+        (6,) array, N and N m
+        """
         thrust = float(thrust_curve(self.disc, np.array([self.wind.mean]))[0])
         force = thrust * np.array([np.cos(self.disc.tilt), 0.0, np.sin(self.disc.tilt)])
         return np.concatenate([force, np.cross([0.0, 0.0, self.disc.tower_to_shaft], force)])
 
     def shaft(self, axis: Array) -> Array:
-        """(3,) direction of the shaft, downwind, on a tower whose axis has a direction (3,)."""
+        """Downwind direction of the shaft on a tower with an inclined axis.
+
+        Parameters
+        ----------
+        axis : (3,) array
+            Direction of the tower's axis.
+
+        Returns
+        -------
+        (3,) array
+        """
         return np.array(_shaft(axis, np.cos(self.disc.tilt), np.sin(self.disc.tilt))[:3])
 
     def response(self, omega: float) -> complex:
-        """Change of the thrust per change of the relative wind that swings with omega in rad/s.
+        """Change of the thrust per change of the relative wind, about the mean wind.
 
-        In N s/m, about the mean wind. Its real part damps a motion of the hub.
+        Its real part damps the motion of the hub.
+
+        Parameters
+        ----------
+        omega : float, rad/s
+            Angular frequency of the relative wind.
+
+        Returns
+        -------
+        complex, N s/m
         """
         table, mean = ThrustTable(self.disc), self.wind.mean
         coefficient, by_wind = table.coefficient(mean)

@@ -1,10 +1,10 @@
-"""A synthetic tower-top load for a parked-pitch, below-rated wind, where no load file is available.
+"""A synthetic tower-top load for below-rated wind, where no load file is available.
 
-It stands in for a prescribed history, so that it feels no motion and keeps the benchmark's own
-blade-passing frequency; a wind derived for a running rotor is in ``rotor_turbulence``. It is a
-surrogate and says so: mean thrust and torque from momentum theory at the rotor's own speed,
-turbulence through the rotor's averaging, and the blade-passing harmonics that rotational sampling
-of shear, tower and turbulence gives.
+It replaces a prescribed history: it does not depend on the motion and keeps the benchmark's
+blade-passing frequency; ``rotor_effective_wind`` derives the wind of an operating rotor. It is
+marked as a surrogate: mean thrust and torque from momentum theory at the given rotor speed,
+turbulence averaged over the rotor, and the blade-passing harmonics due to rotational sampling of
+shear, tower shadow and turbulence.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from offwind_pin.definitions.turbine import RotorNacelleRNA
 from offwind_pin.loads.tower_top.load_history import LoadHistory
 
 _HIGHEST_FREQUENCY = 5.0
-"""Hz; turbulence and harmonics hold nothing of note beyond."""
+"""Hz, above which turbulence and harmonics are negligible."""
 
 AIR_DENSITY = 1.225
 """kg/m3, the standard atmosphere at sea level."""
@@ -67,13 +67,13 @@ def operate_rotor(
     blade_passing_frequency: float,
     lift_to_drag: float = 100.0,
 ) -> RotorOperation:
-    """Thrust and torque of a well designed rotor at its own tip-speed ratio.
+    """Thrust and torque of a well-designed rotor at its tip-speed ratio.
 
     1. The blade-passing frequency gives the rotor speed, and with the radius the tip-speed ratio.
     2. Manwell, McGowan and Rogers (Wind Energy Explained, 2nd ed., Eq. 3.109) give the largest
        power coefficient of a rotor with that ratio, number of blades and lift-to-drag ratio; its
-       first term is what the air gives (wake rotation and tips included), its second the profile
-       drag.
+       first term is the aerodynamic power (wake rotation and tip losses included), its second the
+       profile drag.
     3. Momentum theory, Cp = 4 a (1 - a)^2, gives the induction a (below 1/3) for the first term,
        and the thrust coefficient is 4 a (1 - a).
     4. Thrust = Ct rho A U^2 / 2 and torque = Cp rho A U^3 / 2 / Omega, with the whole Cp.
@@ -107,7 +107,7 @@ def operate_rotor(
 
 
 class SyntheticWind(Definition, kw_only=False):
-    """Settings of the generator; assumed where no derivation is named.
+    """Settings of the generator; values without a stated derivation are assumptions.
 
     Attributes
     ----------
@@ -120,10 +120,10 @@ class SyntheticWind(Definition, kw_only=False):
     harmonics : tuple of float
         Standard deviation of the thrust at 3P, 6P, 9P over the mean thrust.
     coherent_fraction : float
-        Share of the variance at 3P that is a pure tone (shear and tower shadow); its square that at
-        6P, its cube that at 9P; the rest is turbulence sampled by the blades.
+        Fraction of the variance at 3P in a pure tone (shear and tower shadow); its square applies
+        at 6P, its cube at 9P; the rest is turbulence sampled by the blades.
     seed : int or None
-        By default that of the load case, or 1.
+        Seed of the phases; by default that of the load case, or 1.
     """
 
     kind: Literal["synthetic"] = Field(default="synthetic", kw_only=True)
@@ -139,7 +139,17 @@ class SyntheticWind(Definition, kw_only=False):
     )
 
     def completed(self, seed: int) -> Self:
-        """The same, drawn by the seed of a load case where it has none of its own."""
+        """The same settings, with the seed of a load case if there is none of its own.
+
+        Parameters
+        ----------
+        seed : int
+            Seed of the case.
+
+        Returns
+        -------
+        SyntheticWind
+        """
         return self if self.seed is not None else self.replace(seed=seed)
 
     def generate(
@@ -147,14 +157,28 @@ class SyntheticWind(Definition, kw_only=False):
     ) -> LoadHistory:
         """A history from 0 to ``duration``, periodic in ``repeat_period``.
 
-        Its mean over any whole period is the mean load exactly. Samples are at most dt apart, at
-        a whole number for each period.
+        Its mean over any whole period is exactly the mean load. Samples are at most dt apart, a
+        whole number per period.
 
         The wind varies with a Kaimal spectrum, averaged over the rotor by Vickery's aerodynamic
         admittance 1 / (1 + (2 f sqrt(A) / U)^(4/3)); thrust and torque follow it quasi-steadily at
         constant tip-speed ratio, both with the square of the wind. The turbulence at harmonic n is
-        a Lorentzian band about its frequency, of half width n U / (2 pi R): the eddies that give a
+        a Lorentzian band about its frequency, of half width n U / (2 pi R): eddies that form a
         pattern of n waves around the rotor have the size R / n and pass in R / (n U).
+
+        Parameters
+        ----------
+        rna : RotorNacelleRNA
+        duration : float, s
+            Length of the history.
+        repeat_period : float, s
+            After which it repeats.
+        dt : float, s
+            Largest distance of samples.
+
+        Returns
+        -------
+        LoadHistory
 
         Raises
         ------
@@ -200,7 +224,7 @@ class SyntheticWind(Definition, kw_only=False):
 
     @property
     def wind_seed(self) -> int:
-        """What draws it: its own seed, or 1."""
+        """Seed of the phases: its own, or 1."""
         return 1 if self.seed is None else self.seed
 
     def _describe(self) -> str:

@@ -1,4 +1,4 @@
-"""A rotor's steady thrust: its coefficient over the wind speed, and the induction behind it."""
+"""Steady thrust of a rotor: thrust coefficient over the wind speed, and induction."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ _HIGH_THRUST = 0.96
 
 @kernel
 def thrust_coefficient(table: Array, wind: float) -> tuple[float, float]:
-    """Of a table's numbers at a wind speed, and its slope; both ends hold beyond.
+    """Thrust coefficient of a table at a wind speed, and its slope; constant beyond both ends.
 
-    table : number of pieces, the wind speeds between them, and four coefficients of each piece, the
+    table : number of pieces, the wind speeds between them, and four coefficients per piece, the
         cubic one first
     """
     pieces = int(table[0])
@@ -38,7 +38,7 @@ def induction(coefficient: float) -> tuple[float, float]:
     """Induction factor of a thrust coefficient, and its slope.
 
     Ct = 4 a (1 - a) of momentum theory up to 0.96, beyond it Ct = 8/9 - 4 a / 9 + 14 a^2 / 9 (Buhl
-    2005, NREL/TP-500-36834, without tip loss), which goes on from there without a kink.
+    2005, NREL/TP-500-36834, without tip loss), which continues it smoothly.
     """
     if coefficient <= _HIGH_THRUST:
         root = np.sqrt(1 - coefficient)
@@ -50,7 +50,7 @@ def induction(coefficient: float) -> tuple[float, float]:
 class ThrustTable:
     """A rotor's thrust coefficient over the wind speed: monotone cubics through the table.
 
-    Their slopes do not jump, and between two entries nothing overshoots (Fritsch and Carlson 1980).
+    Their slope is continuous, and they do not overshoot between entries (Fritsch and Carlson 1980).
     """
 
     def __init__(self, disc: RotorDisc) -> None:
@@ -74,7 +74,16 @@ class ThrustTable:
 
 
 def thrust_curve(rotor: Turbine | RotorDisc, wind_speeds: Array) -> Array:
-    """(n,) steady thrust in N at wind speeds in m/s.
+    """Steady thrust over the wind speed.
+
+    Parameters
+    ----------
+    rotor : Turbine or RotorDisc
+    wind_speeds : (n,) array, m/s
+
+    Returns
+    -------
+    (n,) array, N
 
     Raises
     ------
@@ -91,8 +100,8 @@ def thrust_curve(rotor: Turbine | RotorDisc, wind_speeds: Array) -> Array:
 def inflow_time(disc: RotorDisc, wind_speed: float) -> float:
     """Time constant in s with which the induced velocity follows: 1.1 R / ((1 - 1.3 a) U).
 
-    The slow time constant of Oye's model (Snel and Schepers 1995, ECN-C--94-107), a not above 0.5.
-    His second, faster lag is left out.
+    The slow time constant of Oye's model (Snel and Schepers 1995, ECN-C--94-107), with a limited to
+    0.5. The second, faster lag of the model is omitted.
     """
     a = min(ThrustTable(disc).induction(wind_speed)[0], 0.5)
     return 1.1 * disc.radius / ((1 - 1.3 * a) * wind_speed)

@@ -1,4 +1,4 @@
-"""Drag of the wind on the tower, by the drag part of Morison's force."""
+"""Wind drag on the tower, by the drag term of Morison's equation."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from offwind_pin.loads.wind.profiles import Gust, PowerLaw, Profile
 from offwind_pin.structure.section import outer_diameter
 
 STRIP_LENGTH = 1.0
-"""Longest strip of the tower in m: with the power law's 0.14 its drag is met within 1e-4."""
+"""Longest strip of the tower in m: with the power law's 0.14 its drag is accurate to 1e-4."""
 
 
 class TowerWind(LoadDefinition, kw_only=False):
@@ -42,17 +42,17 @@ class TowerWind(LoadDefinition, kw_only=False):
     drag_coefficient : float
         Of the tower; 0.6 to 0.7 for a smooth one at the Reynolds numbers of a storm.
     direction_deg : float
-        Degrees from +x (downwind) towards +y, towards which it blows.
+        Direction towards which it blows, in degrees from +x (downwind) towards +y.
     gust : ExtremeOperatingGust, WindSeries or None
-        :class:`ExtremeOperatingGust`, :class:`WindSeries`, or None for a steady wind. It rises as a
-        simulation starts; statics and modes see the mean.
+        :class:`ExtremeOperatingGust`, :class:`WindSeries`, or None for a steady wind. It is ramped
+        at the start of a simulation; statics and modes use the mean.
     air_density : float, kg/m3
-        IEC 61400-1 takes 1.225.
+        1.225 in IEC 61400-1.
     """
 
     speed: Annotated[NonNegative, Field(le=90)] = key("speed_m_per_s")
     reference_height: Annotated[Positive, Field(le=500)] = key("reference_height_m")
-    # Optional in a file; in Python the coefficient after it would need a default too.
+    # Optional in a file; in Python the coefficient after it would then need a default as well.
     profile: Annotated[Profile, Field(default_factory=PowerLaw)]
     drag_coefficient: Annotated[NonNegative, Field(le=3)]
     direction_deg: Direction = Field(default=0.0, kw_only=True)
@@ -62,6 +62,17 @@ class TowerWind(LoadDefinition, kw_only=False):
     )
 
     def on(self, structure: Structure) -> TowerDrag:
+        """Create the drag on a structure, see :func:`tower_drag`.
+
+        Parameters
+        ----------
+        structure : Structure
+            Turbine, chain and hydrodynamic model, such as a :class:`System`.
+
+        Returns
+        -------
+        TowerDrag
+        """
         return tower_drag(structure, self)
 
 
@@ -69,8 +80,8 @@ class TowerWind(LoadDefinition, kw_only=False):
 class TowerDrag(KernelLoad):
     """Drag rho/2 Cd D l |w| w per strip, w the wind relative to it and normal to its axis.
 
-    It is Morison's force without inertia. The air that moves with the tower is left out: it is
-    some 1e-3 of the tower's mass.
+    It is Morison's force without inertia. The added mass of the air, about 1e-3 of the tower's
+    mass, is omitted.
     """
 
     strips: Strips
@@ -91,7 +102,7 @@ class TowerDrag(KernelLoad):
         return np.column_stack([np.zeros(len(area)), drag, self.strips.ends])
 
     def time_inputs(self, time: Array, ramp_factor: Array) -> Array:
-        """(t, 1 + 6 n) a surface that is not reached, velocity of the air, no acceleration."""
+        """(t, 1 + 6 n) a surface above all strips, velocity of the air, zero acceleration."""
         wind = self.wind
         ratio = wind.profile.ratio(self.height, wind.reference_height)
         speed = np.tile(wind.speed * ratio, (len(time), 1))
@@ -109,6 +120,17 @@ def tower_drag(system: Structure, wind: TowerWind) -> TowerDrag:
 
     It acts from the highest water level, or from still water level of a dry structure, up to the
     yaw bearing.
+
+    Parameters
+    ----------
+    system : Structure
+        Turbine, chain and hydrodynamic model, such as a :class:`System`.
+    wind : TowerWind
+        Mean wind and gust.
+
+    Returns
+    -------
+    TowerDrag
 
     Raises
     ------

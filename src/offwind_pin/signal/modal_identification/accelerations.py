@@ -1,4 +1,4 @@
-"""Measured accelerations out of a CSV file."""
+"""Measured accelerations from a CSV file."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _FEWEST_ROWS = 64
 _COARSEST = 2.0
 """s; modes of a support structure need shorter steps, so that longer ones are more likely ms."""
 _UNEVEN = 0.01
-"""Deviation of a step from the mean one, over it; more is jitter that no spectrum forgives."""
+"""Deviation of a step from the mean one, over it; more jitter distorts a spectrum."""
 _G_IN_NAME = re.compile(r"[\s_(\[]m?g[\])]?$", re.IGNORECASE)
 _LOOKS_LIKE_GRAVITY = (0.97, 1.03)
 
@@ -36,7 +36,7 @@ class Accelerations:
     ----------
     time : (n,) array, s
     names : tuple of str
-        Tuple of str c names of the channels.
+        Tuple of str Names of the c channels.
     values : (n, c) array, m/s2
     """
 
@@ -48,16 +48,25 @@ class Accelerations:
 
     @property
     def sample_rate(self) -> float:
-        """In Hz."""
+        """Samples per second, in Hz."""
         return float((len(self.time) - 1) / (self.time[-1] - self.time[0]))
 
     def select(self, names: Sequence[str]) -> Accelerations:
-        """The channels of these names, in their order, such as those of one direction.
+        """Channels by name, in the order given, such as those of one direction.
+
+        Parameters
+        ----------
+        names : sequence of str
+            Names of channels.
+
+        Returns
+        -------
+        Accelerations
 
         Raises
         ------
         InputError
-            A name that is not there.
+            A name that no channel has.
         """
         missing = [name for name in names if name not in self.names]
         if missing or not names:
@@ -68,22 +77,27 @@ class Accelerations:
 
 
 def read_accelerations(path: Path | str, factor: float | None = None) -> Accelerations:
-    """Accelerations out of a CSV file: a header, the time in s first, a column to each channel.
+    """Read accelerations from a CSV file: a header, the time in s first, one column per channel.
 
     Lines that start with ``#`` are comments.
 
     Parameters
     ----------
+    path : Path or str
     factor : float, optional
         Turns the file's unit into m/s2, such as 9.80665 for g; 1 states that it is m/s2. Without
         it, channels that look like g are refused.
 
+    Returns
+    -------
+    Accelerations
+
     Raises
     ------
     InputError
-        No such file, no header, names twice, a cell that is no finite number, times that do not
-        rise evenly or are not in s, missing rows, fewer than 64 rows, a channel that does not move,
-        or one that seems to be in g.
+        No such file, no header, duplicate names, a cell that is not a finite number, times that do
+        not rise evenly or are not in s, missing rows, fewer than 64 rows, a channel that does not
+        move, or one that seems to be in g.
     """
     path = Path(path)
     if factor is not None and not (np.isfinite(factor) and factor > 0):
@@ -101,8 +115,8 @@ def read_accelerations(path: Path | str, factor: float | None = None) -> Acceler
             raise InputError(
                 f"{path}, channel {name}",
                 f"{values[0, i]:g} at all times",
-                "channels that move",
-                "Delete the column: is the sensor dead?",
+                "channels that vary",
+                "Is the sensor dead? Delete the column.",
             )
         if factor is None:
             _check_unit(path, name, values[:, i])
@@ -121,7 +135,9 @@ def _names(header: list[str], where: str) -> tuple[str, ...]:
         raise InputError(where, ",".join(header), allowed, "Add names above the numbers.")
     twice = sorted({name for name in header if header.count(name) > 1})
     if twice:
-        raise InputError(where, f"{', '.join(twice)} twice", "names of their own", "Rename them.")
+        raise InputError(
+            where, f"{', '.join(twice)} more than once", "unique names", "Rename them."
+        )
     return tuple(header)
 
 
@@ -135,8 +151,8 @@ def _check_times(path: Path, time: Array, lines: Lines) -> None:
         raise InputError(
             f"{path}, line {lines[at]}",
             f"time {time[at]:g} s after {time[at - 1]:g} s",
-            "times that rise",
-            "Is the time the first column, and is the file whole?",
+            "increasing times",
+            "Is the time the first column, and is the file complete?",
         )
     gaps = np.flatnonzero(steps > 1.5 * step)
     if len(gaps):
@@ -145,7 +161,7 @@ def _check_times(path: Path, time: Array, lines: Lines) -> None:
             f"{path}, line {lines[at]}",
             f"a step of {steps[at - 1]:g} s among steps of {step:g} s",
             "a record without gaps",
-            "Cut the file there and use the longer part.",
+            "Split the file there and use the longer part.",
         )
     uneven = np.flatnonzero(np.abs(steps - step) > _UNEVEN * step)
     if len(uneven):
@@ -153,7 +169,7 @@ def _check_times(path: Path, time: Array, lines: Lines) -> None:
         raise InputError(
             f"{path}, line {lines[at]}",
             f"a step of {steps[at - 1]:.6g} s among steps of {step:.6g} s",
-            f"steps that are equal within {100 * _UNEVEN:g} %",
+            f"steps equal to within {100 * _UNEVEN:g} %",
             "Give the time with more digits, or resample the record.",
         )
 
@@ -162,13 +178,13 @@ def _check_unit(path: Path, name: str, values: Array) -> None:
     mean = abs(float(np.mean(values)))
     low, high = _LOOKS_LIKE_GRAVITY
     said = _G_IN_NAME.search(name) is not None
-    # A sensor that stands upright feels gravity: 1 in g, 9.81 in m/s2.
+    # An upright sensor measures gravity: 1 in g, 9.81 in m/s2.
     if not said and not (low < mean < high and np.std(values) < 0.3 * mean):
         return
-    found = "its name says g" if said else f"a mean of {mean:.4g}, as gravity has in g"
+    found = "a name that says g" if said else f"a mean of {mean:.4g}, close to gravity in g"
     raise InputError(
         f"{path}, channel {name}",
         found,
         "accelerations in m/s2",
-        f"Pass factor={STANDARD_GRAVITY} for g (a thousandth for mg), or factor=1 if it is m/s2.",
+        f"Pass factor={STANDARD_GRAVITY} for g (a thousandth of it for mg), or factor=1 for m/s2.",
     )

@@ -67,20 +67,24 @@ def cross_spectral_matrix(
     Parameters
     ----------
     acceleration : (n, c) array
-        Samples at equal intervals, a column to each channel.
+        Samples at equal intervals, one column per channel.
     sample_rate : float, Hz
     segment_s : float, s
-        Length of a segment; its inverse is the distance of the spectrum's lines.
+        Length of a segment; its inverse is the spacing of the frequency lines.
     overlap : float
-        Share of a segment that the next one repeats, 0 to below 1.
+        Fraction of a segment shared with the next one, from 0 to below 1.
     window : str
-        Name of a window of SciPy.
+        Name of a SciPy window.
+
+    Returns
+    -------
+    CrossSpectra
 
     Raises
     ------
     InputError
-        An array of another shape, numbers that are not finite, a channel that does not move, a
-        segment longer than the record, an overlap or window that cannot be.
+        An array of another shape, numbers that are not finite, a constant channel, a
+        segment longer than the record, an invalid overlap or window.
     """
     samples = _checked(acceleration, sample_rate)
     length = _segment_length(samples, sample_rate, segment_s)
@@ -95,7 +99,7 @@ def cross_spectral_matrix(
     matrix *= 2 / (segments * sample_rate * np.sum(weights**2))
     matrix[0] /= 2
     if length % 2 == 0:
-        matrix[-1] /= 2  # the line at half the sampling rate has no twin either
+        matrix[-1] /= 2  # nor has the line at half the sampling rate a mirror image
     return CrossSpectra(
         frequency=np.arange(len(matrix), dtype=np.float64) * (sample_rate / length),
         matrix=matrix,
@@ -112,7 +116,7 @@ def _checked(acceleration: Array, sample_rate: float) -> Array:
     samples = np.asarray(acceleration, dtype=np.float64)
     where = "acceleration"
     if samples.ndim != 2:
-        allowed = "a row to each time and a column to each channel"
+        allowed = "one row per time and one column per channel"
         raise InputError(where, f"an array of shape {samples.shape}", allowed, "Reshape it.")
     count, channels = samples.shape
     if channels >= count:
@@ -138,8 +142,8 @@ def _checked(acceleration: Array, sample_rate: float) -> Array:
         raise InputError(
             f"{where}, channel {still[0]}",
             "the same number at all times",
-            "channels that move",
-            "Leave it out: is the sensor dead, or clamped?",
+            "channels that vary",
+            "Is the sensor dead or clamped? Leave the channel out.",
         )
     return samples
 
@@ -156,7 +160,7 @@ def _segment_length(samples: Array, sample_rate: float, segment_s: float) -> int
 def _overlap_length(overlap: float, length: int) -> int:
     repeated = int(overlap * length) if np.isfinite(overlap) else -1
     if not 0 <= repeated < length:
-        raise InputError("overlap", overlap, "0 to below 1", "Half suits a Hann window.")
+        raise InputError("overlap", overlap, "0 to below 1", "Use 0.5 with a Hann window.")
     return repeated
 
 
@@ -166,7 +170,7 @@ def _weights(window: str, length: int) -> Array:
     try:
         return np.asarray(signal.get_window(window, length), dtype=np.float64)
     except ValueError:
-        allowed = "a window of SciPy that needs no parameter, such as hann"
+        allowed = "a SciPy window without parameters, such as hann"
         raise InputError("window", window, allowed, "Correct the name.") from None
 
 

@@ -1,8 +1,8 @@
-"""Frequency and damping of one mode out of its bell in the singular values of a spectral matrix.
+"""Frequency and damping of one mode from its bell in the singular values of a spectral matrix.
 
 Enhanced frequency domain decomposition (Brincker, Ventura and Andersen, 2001): the lines about a
-peak whose singular vectors are alike are the spectrum of one mode; turned back into time it is the
-mode's correlation function, which dies away as a free decay does.
+peak with similar singular vectors are the spectrum of one mode; transformed to time it is the
+mode's correlation function, which decays like a free vibration.
 """
 
 from __future__ import annotations
@@ -31,8 +31,8 @@ ComplexArray = NDArray[np.complex128]
 FEWEST_LINES = 5
 """The main lobe of a pure tone under a Hann window holds four lines at most."""
 LONGEST_LAG = 1 / 3
-"""Of a segment: past it too little of the window is left, and what wraps round from the segment's
-end grows; for a Hann window it is at most 6 % there, of an oscillation without damping."""
+"""Of a segment: beyond it little of the window is left, and what wraps around from the segment's
+end grows; with a Hann window it is at most 6 % there for an undamped oscillation."""
 _CLOSE = 2
 """Singular values in which a line's part of the bell is looked for: where two modes cross, the one
 looked at moves from the first to the second."""
@@ -46,7 +46,7 @@ class Bell:
     Attributes
     ----------
     first, last : int
-        Numbers of the first and the last line.
+        Indices of the first and the last line.
     density : array, unit^2/Hz
         (last - first + 1,) one-sided spectrum of the mode.
     """
@@ -128,7 +128,7 @@ def correlation(bell: Bell, spectra: CrossSpectra) -> tuple[Array, float]:
 def mode_of_bell(
     bell: Bell, spectra: CrossSpectra, peak_hz: float, amplitude_range: tuple[float, float]
 ) -> Decrement:
-    """Frequency and damping out of the correlation function between two amplitudes.
+    """Frequency and damping from the correlation function between two amplitudes.
 
     peak_hz : frequency of the peak
     amplitude_range : upper and lower end, over the value at lag 0
@@ -136,7 +136,7 @@ def mode_of_bell(
     Raises
     ------
     InputError
-        Too few half cycles in the range, or a correlation that does not die away.
+        Too few half cycles in the range, or a correlation that does not decay.
     """
     function, step = correlation(bell, spectra)
     time, value = extremes(function, step, peak_hz)
@@ -154,7 +154,7 @@ def mode_of_bell(
 
 
 def _crossing_frequency(function: Array, step: float, fit: Decrement) -> float:
-    """Undamped natural frequency in Hz out of the zero crossings of the half cycles used."""
+    """Undamped natural frequency in Hz from the zero crossings of the half cycles used."""
     before = np.flatnonzero(np.diff(np.signbit(function)))[: fit.used + 1]
     share = function[before] / (function[before] - function[before + 1])
     half_period = np.polyfit(np.arange(len(before)), (before + share) * step, 1)[0]

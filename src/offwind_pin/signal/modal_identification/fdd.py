@@ -26,7 +26,7 @@ class Peak:
     Attributes
     ----------
     line : int
-        Its number.
+        Its index.
     valleys : (int, int)
         Lowest lines between it and the peaks beside it, or the ends of the spectrum.
     """
@@ -52,7 +52,7 @@ def singular_values(spectra: CrossSpectra) -> tuple[Array, ComplexArray]:
     ------
     InputError
         Fewer segments than channels: the matrix of K segments has K singular values at most, and
-        the rest say nothing.
+        the rest are meaningless.
     """
     channels = spectra.matrix.shape[1]
     if spectra.segments < channels:
@@ -69,7 +69,7 @@ def singular_values(spectra: CrossSpectra) -> tuple[Array, ComplexArray]:
 def pick_peaks(
     frequency: Array, values: Array, band: tuple[float, float], prominence_db: float
 ) -> tuple[list[Peak], Array]:
-    """Peaks of a singular value that rise above their surroundings, rising in frequency.
+    """Prominent peaks of a singular value, in order of frequency.
 
     Parameters
     ----------
@@ -84,7 +84,7 @@ def pick_peaks(
     Returns
     -------
     peaks : list of Peak
-        n peaks.
+        The n peaks.
     prominence : (n,) array
         In dB.
     """
@@ -109,7 +109,9 @@ def peaks_near(frequency: Array, values: Array, near: Sequence[float]) -> list[P
     for wanted in near:
         if not frequency[1] <= wanted <= frequency[-1]:
             allowed = f"{frequency[1]:g} to {frequency[-1]:g} Hz"
-            raise InputError("near", f"{wanted:g} Hz", allowed, "Sample more often, or longer.")
+            raise InputError(
+                "near", f"{wanted:g} Hz", allowed, "Use a higher sampling rate, or longer segments."
+            )
         window = np.flatnonzero(np.abs(frequency - wanted) <= SEARCH * wanted)
         at = int(window[np.argmax(level[window])]) if len(window) else 0
         # The highest line at an edge of the window belongs to the flank of another peak.
@@ -117,15 +119,15 @@ def peaks_near(frequency: Array, values: Array, near: Sequence[float]) -> list[P
             raise InputError(
                 "near",
                 f"no peak within {100 * SEARCH:g} % of {wanted:g} Hz",
-                "frequencies of peaks of the singular value",
-                "Look at its plot; use longer segments if lines are few.",
+                "frequencies near peaks of the singular value",
+                "Plot the singular values; use longer segments if the resolution is too low.",
             )
         if at in found:
             raise InputError(
                 "near",
-                f"{wanted:g} Hz and another have one peak, at {frequency[at]:.4g} Hz",
-                "a peak for each",
-                "Two modes so close: use channels of one direction, or singular_value=2 for the "
+                f"{wanted:g} Hz and another frequency share the peak at {frequency[at]:.4g} Hz",
+                "one peak per frequency",
+                "For two close modes, use channels of one direction, or singular_value=2 for the "
                 "weaker one.",
             )
         found.append(at)

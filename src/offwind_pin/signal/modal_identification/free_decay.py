@@ -1,4 +1,4 @@
-"""Frequency and damping out of oscillations that die away, by the logarithmic decrement."""
+"""Frequency and damping of decaying oscillations, by the logarithmic decrement."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from offwind_pin.base.errors import InputError
 Array = NDArray[np.float64]
 
 FEWEST = 3
-"""Half cycles that a straight line through their logarithms needs for a standard error."""
+"""Half cycles needed for the standard error of a straight line through their logarithms."""
 _NO_DECAY = 1e-9
-"""Logarithmic decrement of a half cycle that is rounding."""
+"""Logarithmic decrement of a half cycle that is rounding error."""
 _SAMPLES_PER_CYCLE = 8
 """Below, a parabola through three samples misses an extreme by more than half a per cent."""
 
@@ -31,7 +31,7 @@ class Decrement:
     damping_ratio : float
         Of critical.
     damping_error : float
-        Standard error of the ratio out of the scatter about the line.
+        Standard error of the ratio, from the scatter about the line.
     used : int
         Number of half cycles in the line.
     reached : bool
@@ -47,7 +47,7 @@ class Decrement:
 
 @dataclass(frozen=True, eq=False)
 class FreeDecay:
-    """What a free decay tells.
+    """Frequency and damping found from a free decay.
 
     Attributes
     ----------
@@ -56,7 +56,7 @@ class FreeDecay:
     damping_ratio : float
         Of critical, over the whole range of amplitudes.
     damping_error : float
-        Standard error of that ratio out of the scatter about the straight line.
+        Standard error of that ratio, from the scatter about the straight line.
     time : (k,) array, s
         Middle of each half cycle, from the largest on.
     amplitude : (k,) array
@@ -64,7 +64,7 @@ class FreeDecay:
     local_amplitude : (k - 2,) array
         Geometric mean of amplitudes one cycle apart.
     local_damping : (k - 2,) array
-        Damping ratio of that cycle alone; where damping is not linear it changes with the
+        Damping ratio of that cycle alone; with nonlinear damping it changes with the
         amplitude.
     """
 
@@ -102,11 +102,15 @@ def free_decay(
     amplitude_range : (float, float)
         Of the amplitudes in the line, over the largest.
 
+    Returns
+    -------
+    FreeDecay
+
     Raises
     ------
     InputError
-        No vector of finite numbers, one that does not move, a band or range that cannot be, too few
-        samples in a cycle, too few half cycles, amplitudes that do not fall.
+        Not a vector of finite numbers, a constant signal, an invalid band or range, too few
+        samples per cycle, too few half cycles, amplitudes that do not decrease.
     """
     samples = _checked(values, dt)
     upper, lower = checked_range(amplitude_range)
@@ -116,9 +120,9 @@ def free_decay(
     if guess * dt * _SAMPLES_PER_CYCLE > 1:
         raise InputError(
             "dt",
-            f"{1 / (guess * dt):.3g} samples in a cycle of {guess:.4g} Hz",
+            f"{1 / (guess * dt):.3g} samples per cycle of {guess:.4g} Hz",
             f"{_SAMPLES_PER_CYCLE} or more",
-            "Sample more often, or give the frequency_band of a slower mode.",
+            "Use a higher sampling rate, or give the frequency_band of a slower mode.",
         )
     time, value = extremes(samples, dt, guess)
     if frequency_band is not None:
@@ -195,7 +199,7 @@ def decrement(time: Array, amplitude: Array, upper: float, lower: float, where: 
         The line starts at the first amplitude not above the one, and ends before the first below
         the other.
     where : str
-        What the error names.
+        Where the error occurred, for its message.
 
     Raises
     ------
@@ -220,8 +224,8 @@ def decrement(time: Array, amplitude: Array, upper: float, lower: float, where: 
     if slope > -max(2 * error, _NO_DECAY):
         raise InputError(
             where,
-            "amplitudes that do not fall beyond their scatter",
-            "an oscillation that dies away",
+            "amplitudes that do not decrease by more than their scatter",
+            "a decaying oscillation",
             "Cut the signal to its decay, or give a narrower frequency band.",
         )
     half_period, _ = _line(np.arange(used + 1.0), time[first : last + 1])
@@ -260,7 +264,7 @@ def _strongest(values: Array, dt: float) -> float:
     """Frequency in Hz of the strongest line, the mean and the zeros about it left out."""
     padded = 4 * len(values)
     lines = np.abs(np.fft.rfft(values - values.mean(), padded))
-    # A slow drift stands in the lowest lines: less than two cycles are no oscillation.
+    # A slow drift is in the lowest lines: fewer than two cycles are not an oscillation.
     lines[:8] = 0.0
     return float(np.argmax(lines) / (padded * dt))
 
@@ -290,6 +294,6 @@ def _checked(values: Array, dt: float) -> Array:
         raise InputError(f"values, row {row}", float(samples[row]), "finite numbers", "Cut it out.")
     if np.ptp(samples) == 0:
         raise InputError(
-            "values", "the same number at all times", "a signal that moves", "Check it."
+            "values", "the same number at all times", "a signal that varies", "Check the channel."
         )
     return samples

@@ -44,14 +44,14 @@ class OperationalModes:
     Attributes
     ----------
     frequency_hz : (m,) array
-        Undamped natural frequencies, out of the zero crossings of the correlation.
+        Undamped natural frequencies, from the zero crossings of the correlation.
     damping_ratio : (m,) array
-        Of critical, out of its logarithmic decrement.
+        Of critical, from the logarithmic decrement of the correlation.
     damping_error : (m,) array
         Standard error of the straight line through the logarithms. Its points share their noise, so
-        it says how straight the decay is rather than how certain the ratio.
+        it measures how straight the decay is rather than how certain the ratio is.
     damping_scatter : (m,) array
-        Standard deviation that records of this length have at least.
+        Lower bound of the ratio's standard deviation for a record of this length.
     shape : (m, c) array
         Real, unit peak.
     complexity : (m,) array
@@ -63,7 +63,7 @@ class OperationalModes:
     bell_hz : (m, 2) array
         First and last line of each mode's bell.
     names : tuple of str
-        c names of the channels.
+        Names of the c channels.
     frequencies : (f,) array, Hz
         Lines.
     singular_values : (f, c) array, (m/s2)^2/Hz
@@ -113,14 +113,14 @@ def operational_modes(
 ) -> OperationalModes:
     """Frequencies, damping ratios and shapes by (enhanced) frequency domain decomposition.
 
-    The excitation is taken to be broad: alike at all frequencies of a mode's bell. Modes that lie
-    close together need excitation in more than one place too. A segment should last 1 / (zeta f),
-    and the record some hundred times that.
+    The excitation is assumed to be broadband: constant over the frequencies of a mode's bell. Modes
+    that lie close together also need excitation at more than one point. A segment should last 1 /
+    (zeta f), and the record some hundred times that.
 
     Parameters
     ----------
     acceleration : (n, c) array, m/s2
-        At equal intervals, a column to each of two channels or more; those of one direction at a
+        At equal intervals, one column per channel, two or more; those of one direction at a
         time, where modes of both lie close together.
     sample_rate : float, Hz
     segment_s : float, s
@@ -128,16 +128,16 @@ def operational_modes(
     near : sequence of float, Hz, optional
         Frequencies; the modes are those of the highest lines within a tenth of each.
     count : int, optional
-        Number of modes, the most prominent peaks; without it and ``near``, all that rise.
+        Number of modes, the most prominent peaks; without it and ``near``, all prominent peaks.
     band : (float, float), Hz, optional
-        Lowest and highest frequency of peaks that are looked for.
+        Frequency range in which peaks are sought.
     prominence_db : float
-        Least height of a peak above its valleys.
+        Minimum height of a peak above its valleys.
     singular_value : int
         The singular value whose peaks count; 2 for the weaker one of two modes at nearly the same
-        frequency, whose shapes must be normal to each other.
+        frequency, whose shapes must be orthogonal.
     mac_limit : float
-        Least modal assurance of the lines of a bell with its peak.
+        Minimum modal assurance of the lines of a bell with its peak.
     amplitude_range : (float, float)
         Of the correlation function in the decrement, over its value at lag 0.
     overlap : float
@@ -147,10 +147,14 @@ def operational_modes(
     names : sequence of str, optional
         Of the channels; by default channel 1, channel 2, ...
 
+    Returns
+    -------
+    OperationalModes
+
     Raises
     ------
     InputError
-        Arrays or settings that cannot be, fewer segments than channels, no peak, or fewer than
+        Invalid arrays or settings, fewer segments than channels, no peak, or fewer than
         asked for, or a mode asked for with ``near`` whose bell is too narrow.
     """
     samples = np.asarray(acceleration, dtype=np.float64)
@@ -179,8 +183,8 @@ def operational_modes(
     if not modes:
         raise InputError(
             "acceleration",
-            f"{len(peaks)} peaks, none with a bell of its own; {'; '.join(cautions)}",
-            "a record with modes",
+            f"{len(peaks)} peaks, none of them with the bell of a mode; {'; '.join(cautions)}",
+            "a record in which modes can be identified",
             "Use longer segments, or a longer record.",
         )
     for mode in modes:
@@ -254,7 +258,7 @@ def _prominent(
 
 
 def _scatter(fit: Decrement, duration: float) -> float:
-    """Least standard deviation of a damping ratio out of one record.
+    """Lower bound of the standard deviation of a damping ratio from one record.
 
     The slow amplitude of a lightly damped mode under white noise is a complex process of first
     order with decay alpha = zeta omega. Its likelihood over T bounds the variance of an estimated
@@ -268,13 +272,14 @@ def _of_record(spectra: CrossSpectra, channels: int) -> list[str]:
     cautions = []
     if spectra.averages < _FEW_AVERAGES:
         cautions.append(
-            f"{spectra.segments} segments scatter as {spectra.averages:.3g} independent ones: each "
-            f"line by {100 / np.sqrt(spectra.averages):.0f} %; use a longer record"
+            f"{spectra.segments} overlapping segments count as {spectra.averages:.3g} independent "
+            f"ones: each line scatters by {100 / np.sqrt(spectra.averages):.0f} %; use a longer "
+            "record"
         )
     if spectra.segments < 2 * channels:
         cautions.append(
             f"{spectra.segments} segments for {channels} channels: the small singular values are "
-            "too small"
+            "underestimated; use shorter segments or a longer record"
         )
     return cautions
 
@@ -288,26 +293,27 @@ def _of_mode(
     if not mode.fit.reached:
         needed = 1 / (mode.fit.damping_ratio * mode.fit.frequency_hz)
         cautions.append(
-            f"{name}: its correlation does not fall to {lower:g} within a third of a segment of "
+            f"{name}: the correlation does not decay to {lower:g} within a third of a segment of "
             f"{spectra.segment:g} s, and the damping is that of the larger amplitudes; segments of "
-            f"{needed:.3g} s, 1 / (zeta f), would hold it"
+            f"{needed:.3g} s, 1 / (zeta f), would be long enough"
         )
     spread = _scatter(mode.fit, spectra.duration) / mode.fit.damping_ratio
     if spread > _UNCERTAIN:
         cautions.append(
-            f"{name}: records of {spectra.duration:g} s have damping ratios that scatter by "
+            f"{name}: damping ratios from records of {spectra.duration:g} s scatter by "
             f"{100 * spread:.0f} % or more"
         )
     first, second = values[mode.line, :2]
     if singular_value == 1 and second > _CLOSE * first:
         cautions.append(
             f"{name}: the second singular value is {100 * second / first:.0f} % of the first: "
-            "another mode is close, or noise; use channels of one direction, or singular_value=2"
+            "another mode or noise is close; use channels of one direction, or singular_value=2"
         )
     _, complexity = real_shape(mode.vector)
     if complexity > _COMPLEX:
         cautions.append(
-            f"{name}: {100 * complexity:.1f} % of its complex shape is out of phase, and left out"
+            f"{name}: {100 * complexity:.1f} % of the complex shape is out of phase and is "
+            "discarded"
         )
     return cautions
 
@@ -324,22 +330,22 @@ def _check_settings(
             "acceleration",
             "1 channel",
             "2 channels or more",
-            "One channel has no shapes: use power_spectral_density and free_decay.",
+            "A single channel has no mode shapes: use power_spectral_density and free_decay.",
         )
     if near is not None and (count is not None or len(near) == 0):
         raise InputError(
-            "near", f"{list(near)} and count {count}", "either of the two", "Leave one out."
+            "near", f"{list(near)} and count {count}", "one of the two", "Leave one out."
         )
     if singular_value not in (1, 2):
         raise InputError("singular_value", singular_value, "1 or 2", "Choose one of them.")
     if not 0 < mac_limit < 1:
-        raise InputError("mac_limit", mac_limit, "between 0 and 1", "0.8 is common.")
+        raise InputError("mac_limit", mac_limit, "between 0 and 1", "Use 0.8, a common value.")
 
 
 def _labels(names: Sequence[str] | None, channels: int) -> tuple[str, ...]:
     labels = tuple(names) if names is not None else ()
     if names is not None and len(labels) != channels:
         raise InputError(
-            "names", f"{len(labels)} names", f"{channels}, one to each channel", "Complete them."
+            "names", f"{len(labels)} names", f"{channels}, one per channel", "Complete them."
         )
     return labels or tuple(f"channel {i + 1}" for i in range(channels))

@@ -1,4 +1,4 @@
-"""How alike mode shapes are, and how close complex ones come to real ones."""
+"""Similarity of mode shapes, and how nearly real complex ones are."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ def modal_assurance(a: ArrayLike, b: ArrayLike) -> Array:
     """Modal assurance criterion of every shape of one set with every shape of another.
 
     |a* b|^2 / ((a* a) (b* b)) with a* the conjugate transpose (Allemang and Brown, 1982): 1 for
-    shapes that differ by a factor, 0 for shapes that are normal to each other. Shapes of different
-    modes need not be normal without the mass between them. ``modal_assurance(a, a)`` tells whether
-    the sensors can tell the modes of one set apart.
+    shapes that differ by a factor, 0 for orthogonal shapes. Shapes of different modes are
+    orthogonal with respect to the mass, not in general without it. ``modal_assurance(a, a)`` shows
+    whether the sensors can distinguish the modes of one set.
 
     Parameters
     ----------
@@ -29,12 +29,12 @@ def modal_assurance(a: ArrayLike, b: ArrayLike) -> Array:
     Returns
     -------
     (m, n) array
-        Numbers from 0 to 1.
+        Values from 0 to 1.
 
     Raises
     ------
     InputError
-        Shapes of another number of sensors, one that is zero, or that is no finite number.
+        Different numbers of sensors, or a shape that is zero or not finite.
     """
     first, second = _shapes("a", a), _shapes("b", b)
     if first.shape[1] != second.shape[1]:
@@ -42,7 +42,7 @@ def modal_assurance(a: ArrayLike, b: ArrayLike) -> Array:
             "modal_assurance",
             f"shapes at {first.shape[1]} and {second.shape[1]} sensors",
             "shapes at the same sensors",
-            "Give one row to each mode and one column to each sensor.",
+            "Give one row per mode and one column per sensor.",
         )
     product = np.abs(first.conj() @ second.T) ** 2
     length = np.outer(np.sum(np.abs(first) ** 2, axis=1), np.sum(np.abs(second) ** 2, axis=1))
@@ -50,22 +50,23 @@ def modal_assurance(a: ArrayLike, b: ArrayLike) -> Array:
 
 
 def real_shape(vector: ComplexArray) -> tuple[Array, float]:
-    """A complex shape turned in phase until its imaginary part is smallest, with unit peak.
+    """A complex shape rotated in phase so that its imaginary part is smallest, with unit peak.
 
     Parameters
     ----------
     vector : (c,) complex array
-        Of any phase and length.
+        Of arbitrary phase and length.
 
     Returns
     -------
     shape : (c,) array
-        Real part after the turn, its largest value 1.
+        Real part after the rotation, its largest value 1.
     complexity : float
         Squared length of the imaginary part that remains over that of the whole: 0 where all
-        sensors move in phase or against it, 1/2 for a wave that runs with equal size in both.
+        sensors move in phase or in antiphase, 1/2 for a travelling wave with equal real and
+        imaginary parts.
     """
-    # The turn that makes the sum of squares real and positive leaves least to the imaginary part.
+    # The rotation that makes the sum of squares real and positive minimises the imaginary part.
     turned = vector * np.exp(-0.5j * np.angle(np.sum(vector**2)))
     real = turned.real
     complexity = float(np.sum(turned.imag**2) / np.sum(np.abs(turned) ** 2))
@@ -75,15 +76,15 @@ def real_shape(vector: ComplexArray) -> tuple[Array, float]:
 def _shapes(name: str, given: ArrayLike) -> ComplexArray:
     shapes = np.atleast_2d(np.asarray(given, dtype=np.complex128))
     if shapes.ndim != 2 or not shapes.size:
-        allowed = "a row to each mode and a column to each sensor"
+        allowed = "one row per mode and one column per sensor"
         raise InputError(name, f"an array of shape {shapes.shape}", allowed, "Reshape it.")
     length = np.sum(np.abs(shapes) ** 2, axis=1)
     wrong = np.flatnonzero(~(np.isfinite(length) & (length > 0)))
     if len(wrong):
         raise InputError(
             f"{name}, mode {wrong[0]}",
-            "a shape that is zero or no finite number",
-            "finite shapes that move somewhere",
+            "a shape that is zero or not finite",
+            "finite shapes that are not zero",
             "Leave that mode out.",
         )
     return shapes

@@ -1,4 +1,4 @@
-"""OC6 Phase II and OC3 Phase II: what others found for the same turbines."""
+"""OC6 Phase II and OC3 Phase II: published results for the same turbines."""
 
 from __future__ import annotations
 
@@ -52,19 +52,19 @@ def frequency(
     water: str = "dry",
     turbine: str = "oc6_phase2",
 ) -> float:
-    """Of a mode in Hz about the static state."""
+    """Natural frequency of a mode in Hz about the static state."""
     found = _modes(foundation, water, turbine)
     return float(found.frequency_hz[found.index(mode)])
 
 
 def peak_height(mode: str) -> float:
-    """Where the mode's shape has its peak, from 0 at the mudline to 1 at the yaw bearing."""
+    """Height of the peak of the mode shape, from 0 at the mudline to 1 at the yaw bearing."""
     found = _modes("distributed_springs", "still", "oc6_phase2")
     return float(found.shape_peak_height_ratio[found.index(mode)])
 
 
 def damping_ratio(mode: str) -> float:
-    """Of a mode on coupled springs in still water."""
+    """Damping ratio of a mode on coupled springs in still water."""
     found = _modes("coupled_springs", "still", "oc6_phase2")
     return float(found.damping_ratio[found.index(mode)])
 
@@ -82,7 +82,7 @@ def thrust_response(foundation: str, thrust: float) -> float:
 
 
 def increase_over_clamped(foundation: str) -> float:
-    """Of the displacement of the yaw bearing under gravity, in per cent."""
+    """Increase of the displacement of the yaw bearing under gravity, in per cent."""
     return 100 * (top_displacement(foundation) / top_displacement("clamped") - 1)
 
 

@@ -63,7 +63,7 @@ def _by_steps(dt: float) -> Array:
 
 
 def order_in_time() -> float:
-    """Of the seabed moment in waves, against two finer steps extrapolated."""
+    """Order of convergence of the seabed moment in waves, against two finer steps extrapolated."""
     fine, finest = _by_steps(0.0125), _by_steps(0.00625)
     exact, steps = finest + (finest - fine) / 3, [0.1, 0.05, 0.025]
     return fitted_order(steps, [float(np.abs(_by_steps(dt) - exact).max()) for dt in steps])
@@ -89,7 +89,7 @@ def _load_case(name: str) -> dict[str, Any]:
 
 
 def load_case_settled(name: str) -> float:
-    """Largest distance in m of the structure at rest, reached in time, from its static state."""
+    """Largest distance in m between the settled structure in time and its static state."""
     return float(_load_case(name)["settled_difference_m"])
 
 
@@ -141,7 +141,7 @@ def _undamped_bands() -> tuple[float, float]:
     analysis, turbine = case.analysis, case.turbine
     springs = turbine.soil.distributed_springs
     if not isinstance(analysis, TransientAnalysis) or springs is None:
-        raise RuntimeError("LC 5.1 is no time history on distributed springs")
+        raise RuntimeError("LC 5.1 is not a time history on distributed springs")
     ground = {"distributed_springs": springs.model_copy(update={"dashpot": None})}
     bare = turbine.soil.model_copy(update=ground)
     turbine = turbine.model_copy(update={"soil": bare})
@@ -203,7 +203,7 @@ def decay_after_a_kick(
 ) -> tuple[float, float]:
     """Damping ratio and frequency in Hz of FA1's free decay after a short push.
 
-    A decaying harmonic about a mean is fitted; one that misses 1 % of the motion is refused.
+    A decaying harmonic about a mean is fitted; a misfit of more than 1 % of the motion is refused.
     """
     kick = np.zeros((5, 6))
     kick[1:3, 0] = 2e4
@@ -227,6 +227,6 @@ def decay_after_a_kick(
     start = [0.0, 2 * np.pi * 0.274, size, size, 0.0]
     fit = least_squares(misfit, start, x_scale=[0.01, 0.01, size, size, size])
     if np.std(fit.fun) >= 0.01 * size:
-        raise RuntimeError("the free decay is no single mode's")
+        raise RuntimeError("the free decay is not that of a single mode")
     ratio = float(fit.x[0] / np.hypot(fit.x[0], fit.x[1]))
     return ratio, float(fit.x[1] / (2 * np.pi))

@@ -23,14 +23,14 @@ _OPTIONS = (
     '<mujoco><compiler boundmass="1e-9" boundinertia="1e-9" balanceinertia="false" '
     'discardvisual="true"/></mujoco>'
 )
-"""MuJoCo gives every body some mass; what massless links get is far below rounding."""
+"""MuJoCo gives every body some mass; that of massless links is far below rounding."""
 
 
 @cache
 def _mujoco(foundation: str) -> tuple[float, float]:
     """Largest differences of mass matrix and bias forces in a bent, moving state, over the largest.
 
-    MuJoCo reads the URDF that Pinocchio runs.
+    MuJoCo reads the URDF that Pinocchio uses.
     """
     import mujoco
 
@@ -51,7 +51,7 @@ def _mujoco(foundation: str) -> tuple[float, float]:
 
 
 def _rigid_bodies(system: System) -> System:
-    """The same without springs, dampers and soil, of which a URDF says nothing."""
+    """The same without springs, dampers and soil, which a URDF does not contain."""
     nothing = np.zeros(system.nv)
     free = replace(system.foundation, root=None, soil=())
     return replace(
@@ -133,7 +133,7 @@ def opensees_frequency(mode: str) -> Found:
 
 @cache
 def _exudyn() -> Array:
-    """(6,) frequencies in Hz of the chain's own bodies in Exudyn, tied by stiff springs."""
+    """(6,) frequencies in Hz of the chain's bodies in Exudyn, connected by stiff springs."""
     import exudyn
     from exudyn import itemInterface
 
@@ -180,7 +180,8 @@ def _exudyn() -> Array:
 
 
 _RIGID = 1e14
-"""N/m of the springs that tie Exudyn's bodies at a joint: stiff beside 1e10 of the structure."""
+"""N/m of the springs that connect Exudyn's bodies at a joint: stiff compared with the structure's
+1e10."""
 
 
 def exudyn_frequency(mode: str) -> Found:
@@ -215,7 +216,7 @@ def _pybmodes() -> Array:
     mudline, length = turbine.site.mudline, turbine.yaw_bearing - turbine.site.mudline
     grid, outer, wall = [], [], []
     for member in turbine.members:
-        # a hair above the station below, whose section ends there
+        # just above the station below, whose section ends there
         low = mudline if member.bottom <= mudline else member.bottom + 1e-6
         stations = [station.z for station in member.stations if station.z > low]
         height = np.unique(np.concatenate([np.arange(low, member.top), stations]))

@@ -1,4 +1,4 @@
-"""Earthquakes, and masses tuned to a mode, on structures of one mode against closed forms."""
+"""Earthquakes and tuned mass dampers on single-mode structures, against closed forms."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _STEP = 0.0025
 def _single_mass(period: float, ratio: float) -> System:
     """A mass on one element of a hundred thousandth of it: a joint, a spring, a damper.
 
-    The weight takes m g / arm off the spring, as an upright pendulum's does.
+    The weight reduces the spring stiffness by m g / arm, as in an inverted pendulum.
     """
     turbine = tube(length=_LENGTH, density=100.0, gravity=_GRAVITY, top_mass=_MASS)
     system = build(turbine, "clamped", elements=1)
@@ -41,7 +41,7 @@ def _single_mass(period: float, ratio: float) -> System:
 
 
 def earthquake_displacement(period: float) -> Found:
-    """Largest displacement in m of a single mass over the ground, and the spectrum's ordinate."""
+    """Largest displacement in m of a mass relative to the ground, and the spectral ordinate."""
     time = np.linspace(0.0, 16.0, 1601)
     strong = np.sin(np.pi * time / 16.0) ** 2
     wild = sum(np.sin(2 * np.pi * f * time + 7 * f**2) for f in (0.3, 0.7, 1.1, 1.9, 3.3, 4.7))

@@ -75,7 +75,7 @@ def hetenyi_head(row: int, column: int) -> Found:
 
 
 def dashpot_cycle() -> Found:
-    """Heat of a secant dashpot per cycle on a circle at its frequency in J, and 4 pi beta K_s y^2.
+    """Energy dissipated by a secant dashpot per circular cycle in J, and 4 pi beta K_s y^2.
 
     On a circle the secant of a curve is constant, and two directions take 2 pi beta K_s y^2 each.
     """

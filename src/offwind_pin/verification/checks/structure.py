@@ -67,7 +67,7 @@ def twist() -> float:
 
 
 def large_rotation_order() -> float:
-    """Of the tip of a tube that a moment bends to a circular arc of 1.2 rad."""
+    """Order of convergence of the tip of a tube bent by a moment to a circular arc of 1.2 rad."""
     angle, counts = 1.2, np.array([4, 8, 16, 32])
     moment, errors = angle * bending_stiffness() / LENGTH, []
     for n in counts:

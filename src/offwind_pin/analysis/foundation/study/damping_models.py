@@ -1,4 +1,4 @@
-"""One spring of a pile with each model of its damping."""
+"""One soil spring with each damping model."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _SLIDERS = Hysteresis(sliders=60)
 
 
 def damping_model(springs: DistributedSprings) -> str | None:
-    """Name of the model that a turbine's springs have, or None."""
+    """Name of the damping model of a turbine's springs, or None."""
     if springs.hysteretic is not None:
         return "sliders"
     return None if springs.dashpot is None else f"{springs.dashpot.stiffness}_dashpot"
@@ -26,7 +26,7 @@ def damping_model(springs: DistributedSprings) -> str | None:
 def damping_models(
     springs: DistributedSprings, soil: SoilSprings, node: int
 ) -> dict[str, SoilSprings]:
-    """One lateral spring by model: the turbine's own, and what others make of its numbers."""
+    """One lateral spring by damping model: the turbine's own, and others with its parameters."""
     at = np.array([node])
     curves = soil.curves.at(at)
     parts = (soil.name, soil.component, soil.height[at], soil.tributary_length[at], curves)
@@ -44,7 +44,7 @@ def damping_models(
 
 
 def damping_node(soil: SoilSprings, depth: Array, diameter: float) -> int:
-    """The node at which the soil resists that is nearest to a diameter of depth."""
+    """The node with soil resistance nearest to a depth of one diameter."""
     resists = np.flatnonzero(soil.curves.secant(np.zeros(len(depth))) > 0)
     return int(resists[np.argmin(np.abs(depth[resists] - diameter))])
 

@@ -1,4 +1,4 @@
-"""What the lateral springs of a pile have been through, in a run or under a load."""
+"""State of the lateral soil springs of a pile, in a run or under a load."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from offwind_pin.definitions.turbine import Turbine
 from offwind_pin.dynamics.system import System
 from offwind_pin.loads.soil.curves.soil_curve import SoilCurves
 from offwind_pin.loads.soil.springs.elastic import LATERAL, SoilSprings
-from offwind_pin.results.reading import analysed
+from offwind_pin.results.reading import analysed, open_checked
 
 _SAME_HEIGHT = 1e-6
 """Difference in m."""
@@ -23,20 +23,20 @@ _SAME_HEIGHT = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class SoilState:
-    """What the lateral springs have been through.
+    """State of the lateral springs.
 
     Attributes
     ----------
     origin : str
-        Where it comes from, in words.
+        Origin of the state, in words.
     displacement : (n,) array, m
         Largest lateral displacement of each node.
     resistance : (n,) array, N/m
-        p there.
+        p at this displacement.
     secant : (n,) array, N/m2
-        p / y there.
+        p / y at this displacement.
     utilisation : (n,) array
-        p over the ultimate resistance; not a number where there is none.
+        p over the ultimate resistance; NaN where there is none.
     """
 
     origin: str
@@ -59,22 +59,17 @@ def reached_in_run(turbine: Turbine, soil: SoilSprings, directory: Path) -> Arra
     Raises
     ------
     InputError
-        No ``results.nc`` there, one that is not of a transient of this turbine on distributed
-        springs, or one that ended in its ramp.
+        No ``results.nc`` there, or results that are not of a transient of this turbine on
+        distributed springs beyond its ramp.
     """
     path = directory / "results.nc"
     where = str(path)
-    if not path.is_file():
-        raise InputError(where, "no such file", "results.nc of a run", "Give the --out of a run.")
-    try:
-        histories = xr.open_dataset(path, engine="netcdf4")
-    except OSError as error:
-        raise InputError(where, str(error), "a NetCDF file", "Run the case again.") from None
-    with histories:
+    with open_checked(path) as tree:
+        histories = tree.to_dataset(inherit=False)
         if not {"displacement", "time", "height"} <= set(histories.variables):
-            allowed = "displacement over time and height, as a transient has them"
+            allowed = "displacement over time and height, as in a transient"
             raise InputError(
-                where, list(histories.data_vars), allowed, "Give a transient's result."
+                where, list(histories.data_vars), allowed, "Give the result of a transient."
             )
         name, made_of = histories.attrs.get("turbine"), histories.attrs.get("definition_sha256")
         if name != turbine.name:
@@ -82,8 +77,8 @@ def reached_in_run(turbine: Turbine, soil: SoilSprings, directory: Path) -> Arra
                 where, f"a result of turbine {name}", turbine.name, "Give a result of this turbine."
             )
         if made_of != turbine.content_hash:
-            allowed = "one of the definition as it is now"
-            raise InputError(where, f"a result of another {name}", allowed, "Run the case again.")
+            allowed = "a result of the present definition"
+            raise InputError(where, f"a result of a changed {name}", allowed, "Run the case again.")
         if float(histories.height.min()) > float(soil.height.min()) + _SAME_HEIGHT:
             raise InputError(
                 where,
@@ -93,40 +88,42 @@ def reached_in_run(turbine: Turbine, soil: SoilSprings, directory: Path) -> Arra
                 "Run the case on distributed_springs.",
             )
         if float(histories.time[-1]) < float(histories.attrs.get("ramp_s", 0.0)):
-            raise InputError(where, "a run that ended in its ramp", "a longer one", "Run it on.")
+            raise InputError(
+                where, "a run that ended in its ramp", "a longer run", "Continue the run."
+            )
         return soil_displacement_reached(histories, soil)
 
 
 def reached_statically(system: System, soil: SoilSprings, state: StaticResult) -> Array:
-    """(n,) lateral displacement of each node in a static state, of the chain's own axis, in m."""
+    """(n,) lateral displacement of each node in a static state, on the chain's axis, in m."""
     rest = np.zeros(system.nv)
     motion = system.equations([], ramp_time=None).chain_motion(state.q, rest)
     return np.asarray(np.hypot(*motion.points_at(soil.height).displacement[:, :2].T))
 
 
-def told_of_run(directory: Path) -> str:
-    """Where the state of a run comes from, in words."""
+def run_origin(directory: Path) -> str:
+    """Origin of the state of a run, in words."""
     return (
-        f"largest displacements after the ramp of the run in {directory}, linear between the "
-        "heights that it recorded"
+        f"largest displacements after the ramp of the run in {directory}, linear between recorded "
+        "heights"
     )
 
 
-def told_of_load(load: Array) -> str:
-    """The same of a state under a load (6,) at the yaw bearing."""
+def load_origin(load: Array) -> str:
+    """Origin of a state under a load (6,) at the yaw bearing, in words."""
     parts = zip(("Fx", "Fy", "Fz", "Mx", "My", "Mz"), load, strict=True)
-    told = ", ".join(
+    components = ", ".join(
         f"{name} = {value / 1e6:g} {'MN' if name[0] == 'F' else 'MN m'}"
         for name, value in parts
         if value
     )
-    return f"static state under gravity and {told or 'no load'} at the yaw bearing"
+    return f"static state under gravity and {components or 'no load'} at the yaw bearing"
 
 
 def soil_springs(system: System) -> SoilSprings | None:
     """The lateral springs along the pile, or None for a foundation without them.
 
-    Springs in other directions, and those at the toe, are not drawn.
+    Springs in other directions and at the toe are not included.
     """
     return next(
         (
@@ -152,7 +149,7 @@ def soil_displacement_reached(histories: xr.Dataset, soil: SoilSprings) -> Array
 
 
 def _ground_at(histories: xr.Dataset, height: Array) -> Array:
-    """(t, m, 3) displacement of the ground at heights (m,) in m, the ends holding beyond."""
+    """(t, m, 3) displacement of the ground at heights (m,) in m, constant beyond the ends."""
     ground, level = histories.ground_displacement.values, histories.level.values
     place = np.interp(height, level, np.arange(len(level)))
     below = np.floor(place).astype(int)

@@ -1,4 +1,4 @@
-"""The soil of a turbine in sight: curves, state, pushover, stiffness at the mudline, damping."""
+"""Soil of a turbine: curves, state, pushover, stiffness at the mudline, damping."""
 
 from __future__ import annotations
 
@@ -27,10 +27,10 @@ from offwind_pin.analysis.foundation.study.damping_models import (
 )
 from offwind_pin.analysis.foundation.study.state import (
     SoilState,
+    load_origin,
     reached_in_run,
     reached_statically,
-    told_of_load,
-    told_of_run,
+    run_origin,
 )
 from offwind_pin.analysis.foundation.study.tabulate import (
     OtherSprings,
@@ -56,14 +56,14 @@ from offwind_pin.structure.section import outer_diameter
 Made = TypeVar("Made")
 
 _FREQUENCIES = (0.1, 0.25, 1.0)
-"""Hz: of waves, and of a monopile turbine's first and second bending modes, roughly."""
+"""Hz; approximate frequencies of waves and of the first and second bending modes."""
 _AMPLITUDES = np.geomspace(1e-5, 1e-2, 25)
-"""Over the pile's diameter; at a tenth of it, a monopile counts as failed."""
+"""Amplitudes over the pile's diameter; a monopile counts as failed at a tenth."""
 
 
 @dataclass(frozen=True)
 class Fixity:
-    """A cantilever of apparent fixity beside the 6x6 that it stands for.
+    """A cantilever of apparent fixity, with the 6x6 that it replaces.
 
     length in m, bending_stiffness in N m2, load_arm in m; stiffness and reference (2, 2) of x and
     ry in N, m, rad
@@ -77,44 +77,44 @@ class Fixity:
 
     @property
     def difference(self) -> Array:
-        """(2, 2) of the cantilever's from the 6x6's, over the latter."""
+        """(2, 2) difference of the cantilever from the 6x6, over the latter."""
         return np.asarray(self.stiffness / self.reference - 1)
 
 
 @dataclass(frozen=True, eq=False)
 class SoilOverview:
-    """What the soil of a turbine is and does.
+    """Curves, state and stiffness of a turbine's soil.
 
     Attributes
     ----------
     turbine : Turbine
-        Whose soil it is.
+        The turbine.
     springs : DistributedSprings
         Its distributed springs as defined.
     foundation : Foundation
-        The foundation made of them.
+        The resulting foundation.
     lateral : SoilSprings
-        The lateral ones along the pile.
+        The lateral springs along the pile.
     depth, diameter : (n,) array, m
-        Of the nodes.
+        Depth and pile diameter of the nodes.
     model : (n,) tuple of str
         Name of the law of each node's curve.
     state : SoilState or None
-        Of the nodes, or None where neither a result nor a load was given.
+        State of the nodes; None without a result or a load.
     pushover : Pushover
-        Of the pile; it ends early where the soil gives way.
+        Pushover of the pile; it ends early if the soil fails.
     macro_element : (t, 2) array or None
-        Its load in N and rotation in rad at the pushover's displacements.
+        Load in N and rotation in rad of the macro-element at the pushover's displacements.
     stiffness : dict of str to array
         (6, 6) stiffness matrices at the mudline in N, m and rad, by name.
     fixity : Fixity or None
-        Of the turbine's apparent fixity.
+        The turbine's apparent fixity.
     damping : dict of str to Dataset
-        Over amplitude and frequency at one node, by model of the damping.
+        Equivalent damping over amplitude and frequency at one node, by damping model.
     damping_model : str or None
-        Which of them the turbine has, or None.
+        The turbine's own model, or None.
     remarks : tuple of str
-        What could not be made, and why.
+        Parts that could not be computed, with reasons.
     """
 
     turbine: Turbine
@@ -137,17 +137,17 @@ class SoilOverview:
 
     @property
     def others(self) -> tuple[OtherSprings, ...]:
-        """All other springs that follow curves."""
+        """All other springs with curves."""
         return tuple(load for load in self.foundation.soil[1:] if isinstance(load, OtherSprings))
 
     @property
     def head_diameter(self) -> float:
-        """Of the pile at the mudline in m."""
+        """Pile diameter at the mudline in m."""
         return float(self.diameter[0])
 
     @property
     def ended_early(self) -> bool:
-        """Whether the soil gave way before the pushover's end."""
+        """Whether the soil failed before the end of the pushover."""
         return any(remark.startswith(_PUSHOVER) for remark in self.remarks)
 
     @property
@@ -156,7 +156,12 @@ class SoilOverview:
         return float(self.depth[damping_node(self.lateral, self.depth, self.head_diameter)])
 
     def lateral_curves(self) -> list[tuple[float, float, float]]:
-        """Depth in m, y in m and p in N/m of every node, as a curve table has them."""
+        """Depth in m, y in m and p in N/m of every node, as in a curve table.
+
+        Returns
+        -------
+        list of (float, float, float)
+        """
         return [
             (float(depth), y, p)
             for depth, points in zip(
@@ -166,10 +171,15 @@ class SoilOverview:
         ]
 
     def other_curves(self) -> list[tuple[str, float, float, str, float, str]]:
-        """Spring, depth in m, deflection and its unit, resistance and its unit, of all others.
+        """Spring, depth in m, deflection and its unit, resistance and its unit, of the other
+        springs.
 
-        Resistances are per metre of pile along the shaft, whole at the toe; the lever in m of
-        moments that the lateral resistance carries stands for a resistance.
+        Resistances are per metre of pile along the shaft, and total at the toe; for frictional
+        moments the lever in m is given in place of a resistance.
+
+        Returns
+        -------
+        list of tuple
         """
         rows = []
         for load in self.others:
@@ -182,7 +192,12 @@ class SoilOverview:
         return rows
 
     def nodes(self) -> list[dict[str, Any]]:
-        """One row of plain data for each node, from the mudline down."""
+        """One row of plain data for each node, from the mudline down.
+
+        Returns
+        -------
+        list of dict of str to object
+        """
         soil, state = self.lateral, self.state
         initial, ultimate = soil.curves.secant(np.zeros(len(self.depth))), soil.curves.ultimate
         rows = []
@@ -207,7 +222,12 @@ class SoilOverview:
         return rows
 
     def as_dict(self) -> dict[str, Any]:
-        """Plain data, SI units in the keys."""
+        """Plain data, SI units in the keys.
+
+        Returns
+        -------
+        dict of str to object
+        """
         springs, push = self.springs, self.pushover
         return {
             "turbine": self.turbine.name,
@@ -275,32 +295,37 @@ def soil_overview(
     arm: float | None = None,
     elements: int | None = None,
 ) -> SoilOverview:
-    """Everything about the distributed springs of a turbine that an engineer wants to see.
+    """Curves, state, pushover, stiffness and damping of a turbine's distributed springs.
 
     Parameters
     ----------
+    turbine : Turbine
     load : (6,) array, N and N m, optional
-        At the yaw bearing, under which and gravity the state is found, dry.
+        Load at the yaw bearing for the state, with gravity, without water.
     result : Path, optional
-        Directory with ``results.nc`` of a transient on these springs, for the state instead: the
-        largest displacement of each node after the ramp, linear between the recorded heights.
+        Directory with ``results.nc`` of a transient on these springs. The state is then the largest
+        displacement of each node after the ramp, linear between recorded heights.
     arm : float, m, optional
-        Height above the mudline of the pushover's load, by default the yaw bearing's.
+        Height of the pushover load above the mudline, by default that of the yaw bearing.
     elements : int, optional
-        Multibody beam elements of the structure in all, for the state under a load.
+        Total number of multibody beam elements of the structure, for the state under a load.
+
+    Returns
+    -------
+    SoilOverview
 
     Raises
     ------
     InputError
-        No pile or no distributed springs, both a load and a result, or a result that cannot be
-        read, has no displacement below the mudline, or is of another turbine.
+        No pile or no distributed springs, both a load and a result, or a result that is unreadable,
+        has no displacement below the mudline, or is of another turbine.
     SolverError
         No equilibrium under the load.
     """
     if load is not None and result is not None:
         raise InputError("load and result", "both", "one of them", "Leave the other out.")
     if arm is not None and not 0 <= arm < np.inf:
-        raise InputError("arm", arm, "a height of 0 m or more", "Give where the load acts.")
+        raise InputError("arm", arm, "a height of 0 m or more", "Give the height of the load.")
     foundation = distributed_springs(turbine)
     springs = cast(DistributedSprings, turbine.soil.distributed_springs)
     soil = cast(SoilSprings, foundation.soil[0])
@@ -309,14 +334,12 @@ def soil_overview(
     stiffness = {"tangent_unloaded": condensed_stiffness(turbine)}
     state = None
     if result is not None:
-        state = SoilState.of(
-            soil.curves, reached_in_run(turbine, soil, result), told_of_run(result)
-        )
+        state = SoilState.of(soil.curves, reached_in_run(turbine, soil, result), run_origin(result))
     if load is not None:
         system = assemble(turbine, foundation, elements=elements)
         found = static(system, load)
         state = SoilState.of(
-            soil.curves, reached_statically(system, soil, found), told_of_load(load)
+            soil.curves, reached_statically(system, soil, found), load_origin(load)
         )
         for kind in ("tangent", "secant"):
             stiffness[f"{kind}_loaded"] = condense(system, found, stiffness=kind).symmetric
@@ -365,10 +388,10 @@ def macro_element_response(element: MacroElement, pushed: Pushover) -> Array:
                 element.reaction(x, rest, memory),
                 element.tangents(x, rest, memory),
             )
-            lack = load * per_load - reaction
-            if np.max(np.abs(lack)) <= _TOLERANCE * np.max(np.abs(reaction)):
+            error = load * per_load - reaction
+            if np.max(np.abs(error)) <= _TOLERANCE * np.max(np.abs(reaction)):
                 break
-            step = np.linalg.solve(np.column_stack([-per_load, stiffness[:, 1:]]), lack)
+            step = np.linalg.solve(np.column_stack([-per_load, stiffness[:, 1:]]), error)
             load += step[0]
             x[1:] += step[1:]
         else:
@@ -376,7 +399,7 @@ def macro_element_response(element: MacroElement, pushed: Pushover) -> Array:
                 "the macro-element cannot follow the pushover",
                 step=len(found),
                 joint="mudline",
-                residual=float(np.max(np.abs(lack))),
+                residual=float(np.max(np.abs(error))),
             )
         element.commit(x, memory)
         found.append((load, float(x[4])))
@@ -401,7 +424,7 @@ _PUSHOVER = "pushover"
 
 
 def _pushed(turbine: Turbine, arm: float, remarks: list[str]) -> Pushover:
-    """To a tenth of the diameter, or as far as the soil holds."""
+    """Pushover to a tenth of the diameter, or until the soil fails."""
     try:
         return pushover(turbine, arm)
     except SolverError as error:
@@ -412,7 +435,7 @@ def _pushed(turbine: Turbine, arm: float, remarks: list[str]) -> Pushover:
 
 
 def _attempt(what: str, make: Callable[[], Made], remarks: list[str]) -> Made | None:
-    """What could be made, or a remark why not: the rest of an overview needs no such thing."""
+    """A result, or a remark why there is none; other parts of an overview do not depend on it."""
     try:
         return make()
     except (InputError, SolverError) as error:
@@ -431,7 +454,7 @@ def _fixity(turbine: Turbine) -> Fixity:
 def _dampings(
     models: dict[str, SoilSprings], diameter: float, remarks: list[str]
 ) -> dict[str, xr.Dataset]:
-    """Equivalent damping by model, of those that can follow the spring's curve."""
+    """Equivalent damping of each model that can follow the spring's curve."""
     found = {}
     for name, model in models.items():
         drive = partial(equivalent_damping, model, _AMPLITUDES * diameter, _FREQUENCIES, node=0)

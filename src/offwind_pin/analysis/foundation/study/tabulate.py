@@ -1,4 +1,4 @@
-"""Springs of the soil as points, units and plain data."""
+"""Soil springs as points, units and plain data."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from offwind_pin.loads.soil.springs.elastic import SoilSprings
 from offwind_pin.loads.soil.springs.frictional_moment import FrictionalMoment
 
 OtherSprings = SoilSprings | FrictionalMoment
-"""What may act besides the lateral springs."""
+"""Soil loads besides the lateral springs."""
 
 _SAMPLED = np.concatenate([[0.0], np.geomspace(1e-6, 0.25, 100)])
-"""Deflections of the exported curves, over the diameter, or in rad."""
+"""Deflections of exported curves, over the diameter, or in rad."""
 _AT_TOE = ("soil_base_shear", "soil_base_moment", "soil_bearing")
 
 
 def sampled(curves: SoilCurves, scale: float) -> list[list[tuple[float, float]]]:
-    """Points of each curve; of a table its own, elsewhere so that chords stay close."""
+    """Points of each curve: the corners of a polygon, otherwise close enough for chords."""
     corners = [law.corners for _, law in curves.groups]
     bent = [points.ravel() for points in corners if points is not None]
     straight = len(bent) == len(corners)
@@ -44,7 +44,7 @@ def units_of(load: OtherSprings) -> tuple[bool, tuple[str, str]]:
 
 
 def describe_springs(load: OtherSprings, mudline: float) -> dict[str, Any]:
-    """A load of the soil besides the lateral springs, by its nodes."""
+    """Nodes of a soil load other than the lateral springs."""
     _, units = units_of(load)
     curves = load.lever if isinstance(load, FrictionalMoment) else load.curves
     return {
@@ -58,5 +58,5 @@ def describe_springs(load: OtherSprings, mudline: float) -> dict[str, Any]:
 
 
 def finite(value: float) -> float | None:
-    """A number as JSON has it: None where it is infinite or none."""
+    """A number for JSON: None for infinity and NaN."""
     return float(value) if np.isfinite(value) else None

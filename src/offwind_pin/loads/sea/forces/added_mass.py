@@ -1,4 +1,4 @@
-"""Water that moves with the structure: as added mass around it, or contained in it."""
+"""Water that moves with the structure: added mass around it, or water inside it."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from offwind_pin.loads.point_load import (
 from offwind_pin.loads.sea.forces.strips import Strips, Water, wet_share
 
 _MASS, _BOTTOM, _LENGTH = range(3)
-"""Columns of a strip's constants: mass in kg; where the surface moves, its ends in m as well."""
+"""Columns of a strip's constants: mass in kg; with a moving surface also its ends in m."""
 _SURFACE = 0
 """Height of the surface among the time inputs."""
 _V, _E, _A = VELOCITY.start, AXIS.start, ACCELERATION.start
@@ -32,7 +32,7 @@ _V, _E, _A = VELOCITY.start, AXIS.start, ACCELERATION.start
 
 @inner
 def along(a: Array, b: Array) -> float:
-    """Scalar product of two vectors in space."""
+    """Scalar product of two 3-vectors."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
@@ -88,10 +88,9 @@ def _added_mass_energy(motion: Array, constants: Array, memory: Array) -> float:
 
 @dataclass(frozen=True, eq=False)
 class AddedMass(KernelLoad):
-    """Mass per strip of the water that moves with the structure, rho Ca pi D^2/4 l, in kg.
+    """Added mass per strip, rho Ca pi D^2/4 l, in kg.
 
-    It acts normal to the axis and belongs to the mass matrix: its force is in the equations with
-    the accelerations, and what it stores is kinetic energy.
+    It acts normal to the axis and is part of the mass matrix; the energy it stores is kinetic.
     """
 
     height: Array
@@ -107,7 +106,7 @@ class AddedMass(KernelLoad):
     def of(
         strips: Strips, density: float, coefficient: float | Array, name: str = "added_mass"
     ) -> AddedMass:
-        """That of strips that are always wet; the coefficient is one number or one a strip."""
+        """Added mass of strips that are always wet; one coefficient, or one per strip."""
         return AddedMass(strips.height, density * coefficient * strips.volume, name)
 
     @cached_property
@@ -136,12 +135,11 @@ def _splash_tangents(
 
 @dataclass(frozen=True, eq=False)
 class SplashAddedMass(KernelLoad):
-    """Added mass of strips that the surface wets and leaves: mass (n,) in kg times the wet share.
+    """Added mass of strips in the splash zone: mass (n,) in kg times the wet share.
 
-    The force is that mass times the acceleration across the axis, as of the moment. The momentum
-    that a strip takes up as it is wetted, the rate of change of the mass times the velocity
-    (slamming), is left out. As the mass changes it stores no energy that would be a function of
-    the state; its power is counted as work.
+    The force is the current mass times the acceleration normal to the axis. The rate of change of
+    the mass times the velocity (slamming) is omitted. Since the mass changes, its energy is not a
+    function of the state, and its power counts as work.
     """
 
     strips: Strips

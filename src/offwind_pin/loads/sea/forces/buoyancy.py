@@ -1,4 +1,4 @@
-"""Hydrostatic pressure on the walls of a member in water, or with water in it."""
+"""Hydrostatic pressure on the walls of a member in water, or filled with water."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from offwind_pin.loads.sea.forces.strips import Strips, Water, wet_share
 
 _LIFT, _BOTTOM, _LENGTH, _STILL, _CAP = range(5)
 """Columns of a point's constants: rho g V in N, the strip's ends in m and its wet share in still
-water; of the end of the wetted part p A in N."""
+water; for the end of the wetted part p A in N."""
 _SURFACE = 0
 """Height of the surface among the time inputs."""
 _E = AXIS.start
@@ -52,38 +52,36 @@ def _pressure_tangents(
 class Buoyancy(KernelLoad):
     """Hydrostatic pressure on the wetted sides of a member, from its lower end to the surface.
 
-    With the area A, the axis e and the pressure p = rho g (level - z) the sides of a bent and
-    tapered member take, per length, rho g A z_hat + d(p A e)/ds: Archimedes' force less that on the
-    two ends of a piece that are not wet. Summed up, it is rho g V z_hat on every strip and -p A e
-    at the lower end. The term in between, d(p A e)/ds, does no work in the motion of a
-    chain whose axis keeps its length, so that it can be left to the ends: it has
-    the pressure of a bend's outer side beside that of its inner side, and that on the annulus where
-    the diameter jumps. What it changes is what a section's axial force means: that of the wall plus
-    p A (the effective one).
+    With the area A, the axis e and the pressure p = rho g (level - z), the force on the sides of a
+    bent and tapered member per length is rho g A z_hat + d(p A e)/ds: Archimedes' force less that
+    on the two dry ends of a piece. The sum is rho g V z_hat on every strip and -p A e at the lower
+    end. The term d(p A e)/ds, which contains the pressure difference across a bend and the pressure
+    on annuli where the diameter jumps, does no work in the motion of a chain of constant length and
+    is therefore applied at the ends. This changes the meaning of a section's axial force: it is
+    that of the wall plus p A (the effective one).
 
-    Above still water a strip that a wave wets takes the part normal to its axis,
-    rho g V (z_hat - (z_hat.e) e) times its wet share, and below it a strip that falls dry loses
-    that part. Strips and pressures are those of the undeformed heights, all alike, so that a pile
-    that settles is not pressed down by its lower end alone. A top under water is closed: it bears
-    the pressure itself. Left out are the moment of sections that are not level (rho g pi D^4/64
-    times the tilt at the lower end, and times its change above) and, along the axis, the pressure
-    of waves on tapers and annuli.
+    A strip that a wave wets above still water has the part of the force normal to its axis,
+    rho g V (z_hat - (z_hat.e) e) times its wet share; a strip below that falls dry loses that part.
+    Strips and pressures are all taken at undeformed heights, so that settlement does not change the
+    pressure at the lower end alone. A top under water is closed and takes the pressure. Omitted are
+    the moment of inclined sections (rho g pi D^4/64 times the tilt at the lower end, and times its
+    change above) and, along the axis, the wave pressure on tapers and annuli.
 
-    It is not exactly conservative, as the ends' force follows the axis; its power is counted as
-    work.
+    It is not exactly conservative, since the force on the ends follows the axis; its power counts
+    as work.
 
     Attributes
     ----------
     strips : Strips
-        Of the wetted part; the last point is its lower end.
+        Strips of the wetted part; the last point is its lower end.
     weight : float, N/m3
-        Specific weight rho g; negative for water inside, which presses outwards.
+        Specific weight rho g; negative for water inside.
     end_area : float, m2
-        Of the lower end.
+        Area of the lower end.
     level : float, m
-        Of still water.
+        Height of still water.
     water : Water or None
-        Whose surface wets and leaves strips; None where they stay wet.
+        Water with a moving surface; None if all strips stay wet.
     """
 
     strips: Strips

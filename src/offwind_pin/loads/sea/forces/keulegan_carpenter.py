@@ -10,14 +10,14 @@ from offwind_pin.base.definition import Array, ComplexArray
 def keulegan_carpenter(velocity: ComplexArray, omega: Array, diameter: Array) -> Array:
     """(n,) KC = u_m T / D of strips (Keulegan and Carpenter, J. Res. Nat. Bur. Stand. 60, 1958).
 
-    In a regular wave it is 2 pi times the horizontal amplitude of the particles' orbits over D. In
+    In a regular wave it is 2 pi times the horizontal amplitude of the particle orbits over D. In
     irregular waves that amplitude is taken as sqrt(2) times the standard deviation of the orbits,
-    so that the number is that of the sinusoid with the same standard deviation. Unlike one made of
-    the velocity and a mean period it does not hang on where the spectrum's tail is cut off.
-    Currents and the structure's own motion do not count.
+    which is that of a sinusoid with the same standard deviation. Unlike a number from the velocity
+    and a mean period, it does not depend on the cut-off of the spectrum's tail. Currents and the
+    motion of the structure are not included.
 
-    velocity (3, n, m) complex amplitudes of the water in m/s, of which x and y count; omega (m,) in
-    rad/s, of which 0 is left out; diameter (n,) in m
+    velocity (3, n, m) complex amplitudes of the water in m/s, of which x and y are used; omega (m,)
+    in rad/s, of which 0 is omitted; diameter (n,) in m
     """
     moving = omega > 0
     orbit = np.abs(velocity[:2, :, moving]) / omega[moving]

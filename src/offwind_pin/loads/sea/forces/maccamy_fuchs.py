@@ -1,4 +1,4 @@
-"""Diffraction of waves by a cylinder that is not small beside their length."""
+"""Diffraction of waves by a cylinder that is not small compared with their length."""
 
 from __future__ import annotations
 
@@ -7,22 +7,22 @@ import numpy as np
 from offwind_pin.base.definition import Array, ComplexArray
 
 SMALLEST = 1e-6
-"""Radius times wave number below which the limit of long waves holds to rounding."""
+"""Radius times wave number below which the long-wave limit is exact to rounding error."""
 
 
 def maccamy_fuchs(diameter: Array, wave_number: Array) -> ComplexArray:
     """(n, m) force of waves on a vertical cylinder over that of rho pi D^2/4 times acceleration.
 
-    With the radius a and the second Hankel function, for amplitudes that go with exp(i omega t),
+    With the radius a and the second Hankel function, for a time factor exp(i omega t),
 
         C = -4 i / (pi (k a)^2 H1'(k a)),
 
-    which is the force per length of linear diffraction theory, 4 rho g A / (k |H1'(ka)|) times the
-    depth's cosh k(z + h) / cosh kh (MacCamy and Fuchs, Wave forces on piles: a diffraction theory,
+    which is the force per length of linear diffraction theory, 4 rho g A / (k |H1'(ka)|) times
+    cosh k(z + h) / cosh kh (MacCamy and Fuchs, Wave forces on piles: a diffraction theory,
     Beach Erosion Board TM 69, 1954), over that of the undisturbed acceleration at the axis. For
-    long waves it is 2, Morison's 1 + Ca with Ca = 1; for short ones it shrinks and lags behind.
+    long waves it is 2, Morison's 1 + Ca with Ca = 1; for short ones it decreases and lags.
 
-    diameter (n,) in m; wave_number (m,) in rad/m, of which 0 stands for water at rest or a current
+    diameter (n,) in m; wave_number (m,) in rad/m, 0 for water at rest or a current
     """
     from scipy.special import h2vp
 
@@ -34,7 +34,7 @@ def maccamy_fuchs(diameter: Array, wave_number: Array) -> ComplexArray:
 
 
 def inertia_factor(diameter: Array, wave_number: Array, added_mass: Array) -> ComplexArray:
-    """(n, m) by which a strip's inertia force with 1 + Ca is multiplied to be that of diffraction.
+    """(n, m) factor from a strip's inertia force with 1 + Ca to that of diffraction theory.
 
     added_mass : (n,) coefficients Ca of the strips
     """

@@ -25,7 +25,7 @@ from offwind_pin.loads.sea.forces.strips import Strips, Water, wet_share
 _INERTIA, _DRAG, _BOTTOM, _LENGTH = range(4)
 """Columns of a strip's constants: rho (1 + Ca) V in kg, rho/2 Cd D l in kg/m, its ends in m."""
 _SURFACE, _FLUID = range(2)
-"""Among the time inputs: height of the surface, and where the velocities (n, 3) begin; the
+"""Indices in the time inputs: surface height, and start of the velocities (n, 3), which the
 accelerations (n, 3) follow."""
 _V, _E = VELOCITY.start, AXIS.start
 
@@ -42,7 +42,7 @@ WAVE_ELEVATION = Channel(
 def morison_forces(
     motion: Array, constants: Array, time_inputs: Array, memory: Array, force: Array
 ) -> float:
-    """Of strips in a fluid: water or, with nothing but drag, wind.
+    """Forces on strips in a fluid: water, or wind with drag alone.
 
     time_inputs (1 + 6 n) : surface in m, velocity (n, 3) in m/s, acceleration (n, 3) in m/s2
     """
@@ -110,8 +110,8 @@ class MorisonForce(KernelLoad):
     """Fluid inertia and drag of a wave on strips; the added mass is in the mass matrix.
 
     F = rho (1 + Ca) V a_w + rho/2 Cd D l |w| w per strip, with w the relative velocity and a_w the
-    water's acceleration, both taken normal to the axis (Rahman et al., MECC 2025, Eq. 8). Both
-    parts are those of the wet share of a strip. A coefficient is one number or one a strip.
+    water's acceleration, both normal to the axis (Rahman et al., MECC 2025, Eq. 8). Both terms act
+    on the wet share of a strip. A coefficient is one number, or one per strip.
     """
 
     strips: Strips
@@ -136,7 +136,7 @@ class MorisonForce(KernelLoad):
         return np.column_stack([inertia, drag, self.strips.ends])
 
     def time_inputs(self, time: Array, ramp_factor: Array) -> Array:
-        """(t, 1 + 6 n) surface, and velocity and acceleration of the water at the strips."""
+        """(t, 1 + 6 n) surface, then velocity and acceleration of the water at the strips."""
         return self.water.time_inputs(time, ramp_factor)
 
     @property

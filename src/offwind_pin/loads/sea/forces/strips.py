@@ -1,4 +1,4 @@
-"""Strips of a cylinder in water: where they lie, and which share of each is wet."""
+"""Strips of a cylinder in water, and their wet shares."""
 
 from __future__ import annotations
 
@@ -13,7 +13,8 @@ from offwind_pin.base.definition import Array
 from offwind_pin.base.kernels import kernel
 
 STRIP_LENGTH = 0.5
-"""Longest strip in m: the force of a wave 6.5 m long is met within 1 %, of longer ones better."""
+"""Longest strip in m: the force of a wave 6.5 m long is accurate to 1 %, that of longer ones
+better."""
 
 SMOOTHING = STRIP_LENGTH / 2
 """Half the height in m over which the surface is averaged for the wet shares."""
@@ -24,11 +25,11 @@ class Water(Protocol):
 
     @property
     def highest_surface(self) -> float:
-        """Height in m that the surface does not exceed."""
+        """Upper bound of the surface in m."""
 
     @property
     def lowest_surface(self) -> float:
-        """Height in m that the surface does not fall below; the highest one if it stays."""
+        """Lower bound of the surface in m; equal to the upper one if it does not move."""
 
     def elevation(self, time: Array, ramp_factor: Array) -> Array:
         """(t,) surface of the waves above the mean water level in m."""
@@ -45,7 +46,7 @@ class Strips:
     """Strips from the mudline up to the highest surface.
 
     height (n,) of the strip centres in m, length (n,) in m, diameter (n,) in m, always_wet (n,)
-    whether the surface never reaches a strip; every strip unless given.
+    whether the surface always stays above a strip; by default all strips.
     """
 
     height: Array
@@ -62,12 +63,12 @@ class Strips:
 
     @property
     def volume(self) -> Array:
-        """(n,) of each strip in m3."""
+        """(n,) volume of each strip in m3."""
         return np.pi / 4 * self.diameter**2 * self.length
 
     @property
     def wet(self) -> NDArray[np.bool_]:
-        """(n,) whether the surface never reaches a strip."""
+        """(n,) whether the surface always stays above a strip."""
         always = self.always_wet
         return np.ones(len(self.height), dtype=np.bool_) if always is None else always
 
@@ -75,7 +76,7 @@ class Strips:
     def ends(self) -> Array:
         """(n, 2) lower end and length in m for :func:`wet_share`.
 
-        A strip that is always wet begins infinitely deep, so that its share is 1 to the last digit.
+        A strip that is always wet begins infinitely deep, so that its share is exactly 1.
         """
         bottom = np.where(self.wet, -np.inf, self.height - self.length / 2)
         return np.column_stack([bottom, self.length])
@@ -90,11 +91,12 @@ class Strips:
 def strips_up_to(
     mudline: float, top: float, still: float, lowest: float, highest: float
 ) -> tuple[Array, Array, NDArray[np.bool_]]:
-    """Centres (n,) and lengths (n,) of strips in m, and whether the surface never reaches them.
+    """Centres (n,) and lengths (n,) of strips in m, and whether the surface always stays above
+    them.
 
-    Where the surface stays, equal strips end at it. Where it moves, equal strips up to the still
+    If the surface does not move, equal strips end at it. If it does, equal strips up to the still
     surface are followed by equal ones through the splash zone, up to :data:`SMOOTHING` above the
-    highest surface. No strip reaches above the top of the structure.
+    highest surface. No strip extends above the top of the structure.
     """
     below = Strips.between(mudline, min(still, top))
     if highest == lowest or still >= top:
@@ -109,13 +111,14 @@ def strips_up_to(
 
 @kernel
 def wet_share(surface: float, bottom: float, length: float) -> float:
-    """Share of a strip below the surface, between 0 and 1.
+    """Fraction of a strip below the surface, between 0 and 1.
 
     The share min(max((surface - bottom) / length, 0), 1) is averaged over surfaces within h =
-    :data:`SMOOTHING` of the surface, so that it has a continuous slope. As all strips are averaged
-    alike, their wet lengths add up to the surface's height above the lowest strip, exactly, as long
-    as the surface is at least h away from the ends of all strips. As each strip acts at its centre
-    the first moment of the wet length is off by at most length^2 / 8 + h^2 / 6.
+    :data:`SMOOTHING` of the surface, so that it has a continuous slope. Since all strips are
+    averaged alike, their wet lengths add up exactly to the surface's height above the lowest strip,
+    as long as the surface is at least h from the ends of the row of strips. Since each strip acts
+    at its centre, the error of the first moment of the wet length is at most length^2 / 8 + h^2 /
+    6.
     """
     if surface >= bottom + length + SMOOTHING:
         return 1.0

@@ -37,13 +37,13 @@ def wave_number_in_current(
 
     angular_frequency in rad/s (positive) as a fixed observer sees it; along (m,) the current's
     component U in m/s in each wave's direction. An opposing current shortens a wave, until its
-    energy comes on no more (Peregrine, Adv. Appl. Mech. 16, 1976, Eq. 2.7): such waves are blocked.
-    The root is the one that goes over into that without a current: the function of k whose zero it
-    is, is concave, so that Newton's method rises to it from below without overshooting.
+    energy no longer advances (Peregrine, Adv. Appl. Mech. 16, 1976, Eq. 2.7) and it is blocked. The
+    root is the one that continues the root without a current; the function is concave, so that
+    Newton's method approaches it from below without overshooting.
     """
     omega, current = np.broadcast_arrays(angular_frequency, along)
     free = wave_number(np.asarray(omega, dtype=float), depth, gravity)
-    # With the current waves are longer: start from a longer one still.
+    # A following current lengthens waves: start from an even longer one.
     k = np.where(current > 0, free / (1 + current * free / omega) ** 2, free)
     for _ in range(_MOST_STEPS):
         tanh = np.tanh(k * depth)
@@ -55,6 +55,6 @@ def wave_number_in_current(
         if np.all(np.isnan(step) | (np.abs(step) <= 1e-13 * k)):
             break
     else:
-        # close to blocking two roots meet, and Newton's method creeps
+        # close to blocking two roots merge, and Newton's method converges slowly
         k = np.where(np.abs(step) <= 1e-13 * k, k, np.nan)
     return np.asarray(k)

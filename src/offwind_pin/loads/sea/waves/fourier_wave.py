@@ -16,15 +16,15 @@ from offwind_pin.base.errors import InputError
 from offwind_pin.loads.sea.waves.dispersion import wave_number
 
 _ORDERS = (16, 32, 64)
-"""Tried one after the other where no order is asked for."""
+"""Tried in turn if no order is given."""
 _SMALL_TAIL = 1e-5
-"""The last coefficient of the surface that is small enough, as a part of the height."""
+"""Last coefficient of the surface that counts as small, as a fraction of the height."""
 _FIRST_HEIGHT = 0.25
-"""First step of the height, as a part of the highest wave's."""
+"""First step of the height, as a fraction of the highest wave's."""
 _FIRST_URSELL = 50.0
-"""Largest Ursell number H L^2 / d^3 of the first step: long waves are no sinusoids."""
+"""Largest Ursell number H L^2 / d^3 of the first step: long waves are not sinusoidal."""
 _SMALLEST_STEP = 1e-3
-"""Of the height, as a part of the first step."""
+"""Smallest step of the height, as a fraction of the first step."""
 _ITERATIONS = 30
 _TOLERANCE = 1e-12
 _RIPPLE = 0.02
@@ -42,7 +42,7 @@ def highest_wave(length: float, depth: float) -> float:
 
 @dataclass(frozen=True, eq=False)
 class SteadyWave:
-    """A wave of permanent form over a flat bed; x runs with it, and its crest is at x = 0.
+    """A wave of permanent form over a flat bed; x moves with it, and its crest is at x = 0.
 
     In the frame that travels with the crest, z upwards from the mean level,
 
@@ -57,10 +57,10 @@ class SteadyWave:
     speed : float, m/s
         Of the crest over the ground.
     mean_speed : float, m/s
-        At which the water passes below the crest, at a fixed height; the mean velocity over the
+        Mean speed of the water relative to the crest at a fixed height; the mean velocity over the
         ground (Eulerian current) is speed - mean_speed.
     volume_flux : float, m2/s
-        Below the crest's frame; the mean transport velocity over the ground (Stokes current) is
+        In the frame of the crest; the mean transport velocity over the ground (Stokes current) is
         speed - volume_flux / depth.
     bernoulli : float, m2/s2
         Constant, with the height counted from the mean level.
@@ -150,12 +150,12 @@ class SteadyWave:
 
     @property
     def length(self) -> float:
-        """In m."""
+        """Wave length in m."""
         return 2 * np.pi / self.wave_number
 
     @property
     def period(self) -> float:
-        """Over the ground, in s."""
+        """Period over the ground in s."""
         return self.length / self.speed
 
     @property
@@ -213,7 +213,7 @@ def _check(
 
 @dataclass(frozen=True)
 class _Problem:
-    """The wave asked for, in units of ``unit`` m and of gravity 1.
+    """The required wave, in units of ``unit`` m and of gravity 1.
 
     beat : k c, the angular frequency over the ground, or None where the wave number is given
     number : the wave number, or that of a small wave of the period on the current
@@ -257,7 +257,7 @@ class _Problem:
         )
 
     def solve(self, order: int, coarser: SteadyWave | None) -> SteadyWave:
-        """From a wave of lower order, or, where that is none, from small heights upwards."""
+        """From a wave of lower order or, without one, from small heights upwards."""
         if coarser is not None:
             start = self._scaled(coarser, order)
             found = self._newton(start, self.height, order)
@@ -355,7 +355,7 @@ class _Problem:
         with np.errstate(over="ignore", invalid="ignore"):
             residual, _ = self.equations(unknown, height, order)
         largest = np.abs(residual).max()
-        # The surface falls from one crest to one trough, but for the ripples of a coarse series.
+        # The surface falls from one crest to one trough, except for ripples of a coarse series.
         falls = np.all(np.diff(unknown[: order + 1]) < _RIPPLE * height)
         return unknown if falls and largest <= _CONVERGED else None
 
@@ -446,7 +446,7 @@ class _Problem:
 def _small_wave(frequency: float, depth: float, gravity: float, current: float) -> float:
     """Wave number in rad/m of a small wave of an angular frequency over the ground, on a current.
 
-    Solves sqrt(g k tanh k d) + k U = frequency; against too strong a current there is none.
+    Solves sqrt(g k tanh k d) + k U = frequency; with too strong an opposing current there is none.
     """
     k = float(wave_number(np.array([frequency]), depth, gravity)[0])
     for _ in range(100):
@@ -463,5 +463,5 @@ def _small_wave(frequency: float, depth: float, gravity: float, current: float) 
         "stream function wave, field current",
         current,
         "a current against which the wave can travel",
-        "Weaken it, or lengthen the period.",
+        "Reduce the current, or lengthen the period.",
     )

@@ -1,4 +1,4 @@
-"""Linear (Airy) waves at finite depth: a sum of free components that travel on their own."""
+"""Linear (Airy) waves at finite depth: a sum of independent free components."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _LARGEST_EXPONENT = 700.0
 
 @dataclass(frozen=True, eq=False)
 class LinearWaves(WaveField):
-    """Free waves of small steepness, each in a direction of its own.
+    """Free waves of small steepness, each with its own direction.
 
     Attributes
     ----------
@@ -27,12 +27,12 @@ class LinearWaves(WaveField):
     elevation : (m,) complex array, m
         See :class:`WaveField`.
     direction : (m,) array, rad
-        Towards which each component travels, from +x towards +y.
+        Direction of travel of each component, from +x towards +y.
     wave_number : (m,) array, rad/m
     carried : (m,) array or float, m/s
-        Current along each component that carries it; 0 unless given.
+        Current along each component that carries it.
     blocked : float
-        Share of the variance that an opposing current stopped and that was left out.
+        Fraction of the variance that an opposing current blocks and that is omitted.
     """
 
     period: float
@@ -56,7 +56,25 @@ class LinearWaves(WaveField):
         gravity: float,
         direction: Array | float = 0.0,
     ) -> LinearWaves:
-        """Components (m,) on water at rest."""
+        """Components on water at rest.
+
+        Parameters
+        ----------
+        period : float, s
+            After which the waves repeat.
+        harmonic : (m,) array
+            Harmonics of 1 / period, from 1.
+        elevation : (m,) complex array, m
+            Complex amplitudes of the surface.
+        depth : float, m
+        gravity : float, m/s2
+        direction : (m,) array or float, rad
+            Towards which they travel.
+
+        Returns
+        -------
+        LinearWaves
+        """
         k = wave_number(2 * np.pi * harmonic / period, depth, gravity)
         directions = np.broadcast_to(np.asarray(direction, dtype=float), harmonic.shape)
         return LinearWaves(period, harmonic, elevation, directions, depth, gravity, k)
@@ -71,11 +89,29 @@ class LinearWaves(WaveField):
         direction: Array | float,
         current: Array,
     ) -> LinearWaves:
-        """Components (m,) as a fixed observer sees them, on water that flows.
+        """Components as seen by a fixed observer, on flowing water.
 
-        current (3,) in m/s, the same at all depths. Their frequencies and amplitudes at the axis
-        are those given; their lengths, and the particles' motion, are those in the moving water.
-        Components that the current blocks are left out.
+        Frequencies and amplitudes at the axis are those given; wave lengths and particle motion are
+        those in the moving water. Components that the current blocks are omitted.
+
+        Parameters
+        ----------
+        period : float, s
+            After which the waves repeat.
+        harmonic : (m,) array
+            Harmonics of 1 / period, from 1.
+        elevation : (m,) complex array, m
+            Complex amplitudes of the surface.
+        depth : float, m
+        gravity : float, m/s2
+        direction : (m,) array or float, rad
+            Towards which they travel.
+        current : (3,) array, m/s
+            The same at all depths.
+
+        Returns
+        -------
+        LinearWaves
         """
         directions = np.broadcast_to(np.asarray(direction, dtype=float), harmonic.shape)
         along = current[0] * np.cos(directions) + current[1] * np.sin(directions)
@@ -97,7 +133,7 @@ class LinearWaves(WaveField):
 
     @property
     def intrinsic_omega(self) -> Array:
-        """(m,) angular frequencies in rad/s in the water that carries the waves."""
+        """(m,) angular frequencies in rad/s in the moving water."""
         return self.omega - self.wave_number * self.carried
 
     def velocity(self, height: Array) -> ComplexArray:
@@ -109,7 +145,17 @@ class LinearWaves(WaveField):
         )
 
     def acceleration(self, height: Array) -> ComplexArray:
-        """(3, n, m) of the particles that the current carries: i (omega - k U) times velocity."""
+        """Acceleration of the particles in the moving water, i (omega - k U) times the velocity.
+
+        Parameters
+        ----------
+        height : (n,) array, m
+            As for :meth:`velocity`.
+
+        Returns
+        -------
+        (3, n, m) complex array, m/s2
+        """
         return 1j * self.intrinsic_omega * self.velocity(height)
 
     def _profiles(self, height: Array) -> tuple[Array, Array]:

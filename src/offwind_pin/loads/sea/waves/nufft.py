@@ -1,4 +1,4 @@
-"""Many sums of the same harmonics at any time, by a table on an even grid and a short kernel.
+"""Sums of many harmonics at arbitrary times, from a table on a uniform grid and a short kernel.
 
 A nonuniform fast Fourier transform (type 2) in the form of Barnett, Magland and af Klinteberg
 (SIAM J. Sci. Comput. 41, 2019, C479): the amplitudes are divided by the transform of a kernel, one
@@ -23,17 +23,16 @@ _SHAPE = 2.30 * TAPS
 class HarmonicSeries:
     """Sums Re sum_j amplitude_cj exp(i 2 pi harmonic_j t / period), c of them.
 
+    Values depend on the time alone, bitwise, whatever other times are evaluated with it. They are
+    accurate to 1e-11 of the largest value of a sum. Memory: 4 to 5 numbers for each sum and each
+    harmonic up to the highest.
+
     Parameters
     ----------
     period : float, s
     harmonic : (m,) array
-        Different whole numbers from 0.
+        Distinct whole numbers from 0.
     amplitude : (c, m) complex array
-        Complex.
-
-    The values depend on the time alone, to the last digit, in whatever company it is asked for.
-    Beside the largest of a sum's values they are exact to 1e-11. Memory: 4 to 5 numbers for each
-    sum and each harmonic up to the highest.
     """
 
     def __init__(self, period: float, harmonic: Array, amplitude: ComplexArray) -> None:
@@ -56,10 +55,10 @@ class HarmonicSeries:
 
     @cached_property
     def extremes(self) -> tuple[Array, Array]:
-        """(c,) lowest and highest of the sums over a period, to 1e-4 of their range.
+        """(c,) minimum and maximum of the sums over a period, to 1e-4 of their range.
 
-        At four times the grid's points: 16 in the shortest wave, with a parabola through the three
-        about the largest.
+        Evaluated at four times the grid's points, 16 in the shortest wave, and refined by a
+        parabola.
         """
         count = 4 * self._points
         time = np.linspace(0.0, self.period, count, endpoint=False)
@@ -89,7 +88,7 @@ def _transform(order: np.ndarray[tuple[int], np.dtype[np.intp]], points: int) ->
     """(m,) transform of the kernel at harmonics, by Gauss's quadrature."""
     node, weight = np.polynomial.legendre.leggauss(60)
     bell = weight * np.exp(_SHAPE * (np.sqrt(1 - node**2) - 1))
-    # an even function of the harmonic's share of the grid, smooth enough to be interpolated
+    # an even function of the harmonic over the grid size, smooth enough to be interpolated
     place = np.polynomial.chebyshev.chebpts1(41)
     exact = bell @ np.cos(np.pi * TAPS / 8 * np.multiply.outer(node, place + 1))
     share = np.polynomial.chebyshev.chebfit(place, exact, 40)

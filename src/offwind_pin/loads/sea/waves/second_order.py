@@ -1,4 +1,4 @@
-"""Irregular waves to second order: what pairs of linear waves bind to themselves.
+"""Irregular waves to second order: bound components of pairs of linear waves.
 
 Two free waves of elevation Re a exp(i (sigma t - k.x)) force the boundary conditions of second
 order at the mean water level, on a depth d,
@@ -32,42 +32,43 @@ from offwind_pin.loads.sea.waves.linear import LinearWaves
 from offwind_pin.loads.sea.waves.wave_field import WaveField
 
 _STEP = 0.08
-"""Between the nodes of log(1 + kappa d) on which the pairs are gathered.
+"""Spacing of the nodes of log(1 + kappa d) on which pairs are accumulated.
 
-Each pair is shared among six of them, by Lagrange's polynomials of fifth degree."""
+Each pair is distributed to six of them, by Lagrange polynomials of fifth degree."""
 _NOTHING = 1e-14
-"""Parts of a pair's convective acceleration that are but rounding of its factor of direction."""
+"""Fraction of a pair's convective acceleration that is rounding error of its directional factor."""
 _WHERE = "second-order waves"
 
 
 class SecondOrderWaves(WaveField):
-    """Linear waves, and what every two of them bind at sums and differences of frequencies.
+    """Linear waves with bound sum- and difference-frequency components of all pairs.
 
-    Harmonics run from 0, the set-down, up to the highest sum. Pairs are gathered on nodes of the
-    wave number, which moves velocities by less than 1e-6 of the largest.
+    Harmonics run from 0, the set-down, up to the highest sum. Pairs are accumulated on nodes of the
+    wave number, which changes velocities by less than 1e-6 of the largest.
 
-    Conventions. Elevations count from the level at which the water would be at rest: the mean of a
-    wave is its set-down -|a|^2 k / (2 sinh 2kd). No mean velocity goes with it: the current that
-    returns what waves carry belongs to the current of the sea. The mean is that at the axis; waves
-    of one frequency in different directions make it depend on the place.
+    Conventions. Elevations are measured from the still water level: the mean of a wave is its
+    set-down -|a|^2 k / (2 sinh 2kd). There is no mean velocity with it: the return current belongs
+    to the current of the sea. The mean is that at the axis; with waves of one frequency in
+    different directions it varies in space.
 
-    The acceleration is the total one of the particles to second order, Du/Dt = du/dt +
-    (u1 . grad) u1, as that of stream function waves. Second-order parts above the mean water level
-    are those at it; the linear ones are completed to second order by stretching by extrapolation.
+    The acceleration is the total particle acceleration to second order, Du/Dt = du/dt + (u1 . grad)
+    u1, as for stream function waves. Second-order terms are constant above the mean water level;
+    the linear ones are completed to second order by stretching by extrapolation.
 
-    Left out: third order, with the change of the waves' length. The theory needs second order to be
-    small beside first, and fails for steep waves and for long ones in shallow water. For
-    diffraction, bound waves count as free ones of their frequency.
+    Third order, which changes the wave length, is omitted. The theory requires second order to be
+    small compared with first, and fails for steep waves and for long ones in shallow water. In
+    diffraction, bound waves are treated as free waves of their frequency.
 
     Attributes
     ----------
     linear : LinearWaves
         The free waves.
     cutoff : float or None, rad/s
-        Components above it stay linear and bind nothing.
+        Components above it stay linear and form no pairs.
     total_acceleration : bool
-        Whether the acceleration has the convective part.
-    bound : (m,) second-order part of the elevation in m
+        Whether the acceleration includes the convective term.
+    bound : (m,) complex array, m
+        Second-order part of the elevation.
     """
 
     def __init__(
@@ -77,14 +78,17 @@ class SecondOrderWaves(WaveField):
         cutoff: float | None = None,
         total_acceleration: bool = True,
     ) -> None:
-        """cutoff : sqrt(2 g / Hs) unless given, with the significant height Hs of these waves.
+        """The cutoff is sqrt(2 g / Hs) by default, with the significant height Hs of these waves.
 
-        Without it short waves, which ride on long ones, would be taken as bound to them (Stansberg,
-        Gudmestad and Haver, J. Offshore Mech. Arct. Eng. 130, 2008, 021010). The time to set up
-        goes with the square of the number of components below it, some seconds for three hours.
+        Without it the interaction of short waves with the long waves that carry them would be
+        treated as bound components (Stansberg, Gudmestad and Haver, J. Offshore Mech. Arct. Eng.
+        130, 2008, 021010). The set-up time is proportional to the square of the number of
+        components below it, some seconds for three hours.
 
-        Raises InputError for waves that a current carries, and where no component is below the
-        cutoff.
+        Raises
+        ------
+        InputError
+            Waves that a current carries, or no component below the cutoff.
         """
         _check(linear)
         self.linear = linear
@@ -94,7 +98,7 @@ class SecondOrderWaves(WaveField):
         taking = np.flatnonzero(linear.omega <= self.cutoff)
         if len(taking) == 0:
             allowed = f"from the slowest component up ({np.min(linear.omega):.4g} rad/s)"
-            remedy = "Raise it." if cutoff is not None else "Lower the waves: as steep they break."
+            remedy = "Raise it." if cutoff is not None else "Lower the waves: they would break."
             raise InputError(f"{_WHERE}, field cutoff", self.cutoff, allowed, remedy)
         order = taking[np.argsort(linear.harmonic[taking], kind="stable")]
         number, k = linear.harmonic[order].astype(np.int64), linear.wave_number[order]
@@ -148,27 +152,27 @@ class SecondOrderWaves(WaveField):
         return np.stack([cosh @ along_x, cosh @ along_y, sinh @ up])
 
     def _placed(self, amplitude: ComplexArray) -> ComplexArray:
-        """(..., m) from amplitudes (..., l) of the linear components."""
+        """(..., m) amplitudes by harmonic from (..., l) of the linear components."""
         result = np.zeros((*amplitude.shape[:-1], len(self.harmonic)), dtype=complex)
         np.add.at(result.T, self.linear.harmonic.astype(np.intp), amplitude.T)
         return result
 
 
 def _check(linear: WaveField) -> None:
-    """Refuse what the theory does not know."""
+    """Reject waves to which the theory does not apply."""
     if not isinstance(linear, LinearWaves):
         received, allowed = type(linear).__name__, "LinearWaves"
         raise InputError(
-            _WHERE, received, allowed, "Steep regular waves have a theory of their own."
+            _WHERE, received, allowed, "Use stream function theory for steep regular waves."
         )
     if np.any(np.asarray(linear.carried) != 0):
         fastest = float(np.max(np.abs(linear.carried)))
         allowed = "waves on water at rest"
-        remedy = "Leave out the current's effect on the waves, or the second order."
+        remedy = "Leave out doppler, or use order 1."
         raise InputError(f"{_WHERE}, field carried", fastest, allowed, remedy)
     number = linear.harmonic
     if len(number) == 0 or np.any(number < 1) or np.any(number % 1 != 0):
-        allowed = "one whole number from 1 at least, and nothing else"
+        allowed = "whole numbers from 1, at least one"
         raise InputError(f"{_WHERE}, field harmonic", number, allowed, "Correct them.")
     if not np.all(np.isfinite(linear.elevation)):
         raise InputError(
@@ -177,13 +181,14 @@ def _check(linear: WaveField) -> None:
 
 
 def _cutoff(linear: LinearWaves) -> float:
-    """sqrt(2 g / Hs) in rad/s, infinite for no waves."""
+    """sqrt(2 g / Hs) in rad/s, infinite without waves."""
     height = 4 * np.sqrt(np.sum(np.abs(linear.elevation) ** 2) / 2)
     return float(np.sqrt(2 * linear.gravity / height)) if height > 0 else np.inf
 
 
 def _columns(sigma: Array, k: Array, direction: Array, depth: float, gravity: float) -> Array:
-    """(n, 7) sigma, k, k_x, k_y, tanh k d, the surface's speed g k / sigma and Z of components."""
+    """(n, 7) sigma, k, k_x, k_y, tanh k d, velocity g k / sigma at the surface, and Z of
+    components."""
     e = np.exp(-2 * k * depth)
     speed = gravity * k / sigma
     # g^2 k^2 / (sigma cosh^2 k d), without overflow
@@ -204,7 +209,7 @@ def _pairs(
     potential: ComplexArray,
     convected: ComplexArray,
 ) -> None:
-    """Add all pairs of components (n,), in rising order of their numbers, with their columns.
+    """Add all pairs of components (n,), in increasing order of their harmonics.
 
     elevation (m,) gets the amplitudes of the surface; potential (nodes, m, 3) those of i phi2, by
     node of kappa and harmonic, times K_x, K_y and kappa; convected (nodes, m, 3), unless it is
@@ -241,7 +246,7 @@ def _bind(
     d = dot - s * one[0] * two[0]
     raised = one[0] ** 2 + two[0] ** 2 - d
     if sigma == 0:
-        # nothing drives a potential
+        # the pair drives no potential
         return raised / gravity * both
     kappa = np.sqrt(x * x + y * y)
     e = np.exp(-2 * kappa * depth)

@@ -20,24 +20,24 @@ WaveFrequency = Annotated[Positive, Field(le=5)]
 PeakShape = Annotated[Number, Field(ge=1, le=7)] | Literal["iec"]
 
 LOWEST_SHARE, HIGHEST_SHARE = 0.4, 5.0
-"""Of the peak frequency, between which components are made: they hold 99.8 % of the variance, and
-shorter waves are lost on a cylinder many times their length."""
+"""Range of components in multiples of the peak frequency: it contains 99.8 % of the variance, and
+shorter waves have little effect on a cylinder many times their length."""
 
 _GAP = 5.0
-"""A step of a table this many times one beside it is a gap."""
+"""Ratio of neighbouring steps of a table above which the larger one is a gap."""
 _EDGE = 1e-12
-"""Relative; keeps a component that lies on the end of a band in spite of rounding."""
+"""Relative tolerance that keeps a component at the end of a band in spite of rounding error."""
 
 
 class WaveSpectrum(Definition):
-    """How the variance of the surface is spread over frequency.
+    """Distribution of the variance of the surface over frequency.
 
     Attributes
     ----------
     significant_height : float, m
         Four times the root of its area.
     peak_period : float, s
-        Or None where there is no peak.
+        None if there is no peak.
     """
 
     if TYPE_CHECKING:  # fields of some spectra, properties of others
@@ -51,13 +51,22 @@ class WaveSpectrum(Definition):
     @property
     @abstractmethod
     def band(self) -> tuple[float, float]:
-        """Lowest and highest frequency in Hz of the components made of it."""
+        """Lowest and highest frequency in Hz of the components."""
 
     @abstractmethod
     def density(self, frequency: Array, depth: float, gravity: float) -> Array:
-        """(m,) in m2/Hz at frequencies (m,) in Hz in the band.
+        """Variance density at frequencies inside the band.
 
-        depth in m and gravity in m/s2 are those of the site, on which some spectra depend.
+        Parameters
+        ----------
+        frequency : (m,) array, Hz
+        depth : float, m
+            Water depth, on which some spectra depend.
+        gravity : float, m/s2
+
+        Returns
+        -------
+        (m,) array, m2/Hz
         """
 
     @property
@@ -67,14 +76,14 @@ class WaveSpectrum(Definition):
 
 
 class JonswapSpectrum(WaveSpectrum, kw_only=False):
-    """JONSWAP's, with a peak shape of 1 that of Pierson and Moskowitz; see :func:`jonswap`.
+    """JONSWAP spectrum; a Pierson-Moskowitz spectrum for a peak shape of 1. See :func:`jonswap`.
 
     Attributes
     ----------
     significant_height : float, m
     peak_period : float, s
-    peak_shape : PeakShape
-        Float from 1 to 7, or ``"iec"`` for IEC's rule.
+    peak_shape : float or "iec"
+        From 1 to 7, or ``"iec"`` for IEC's rule.
     """
 
     kind: Literal["jonswap"] = Field(default="jonswap", kw_only=True)
@@ -104,12 +113,11 @@ class JonswapSpectrum(WaveSpectrum, kw_only=False):
 
 
 class TmaSpectrum(JonswapSpectrum):
-    """JONSWAP's times Kitaigorodskii's depth factor, at the height given.
+    """TMA spectrum: JONSWAP times Kitaigorodskii's depth factor, scaled to the given height.
 
-    The factor takes variance away. The spectrum is raised again evenly, so that the significant
-    height is the one given, as that of a JONSWAP spectrum is: a sea state is described by the
-    height measured at the site. The peak period is that of the JONSWAP spectrum; the factor grows
-    with frequency, and the peak lies a little above 1 / Tp.
+    The factor removes variance. The spectrum is scaled so that the significant height is the given
+    one, as measured at the site. The peak period is that of the JONSWAP spectrum; since the factor
+    increases with frequency, the peak is slightly above 1 / Tp.
     """
 
     kind: Literal["tma"] = Field(default="tma", kw_only=True)  # type: ignore[assignment]
@@ -129,7 +137,14 @@ class TmaSpectrum(JonswapSpectrum):
 
 
 class WhiteNoise(WaveSpectrum, kw_only=False):
-    """The same density between two frequencies in Hz, none beyond."""
+    """Constant density between two frequencies, zero elsewhere.
+
+    Attributes
+    ----------
+    significant_height : float, m
+    lowest, highest : float, Hz
+        Ends of the band.
+    """
 
     kind: Literal["white_noise"] = Field(default="white_noise", kw_only=True)
     significant_height: SignificantHeight = key("significant_height_m")
@@ -140,12 +155,13 @@ class WhiteNoise(WaveSpectrum, kw_only=False):
     def _has_width(self) -> WhiteNoise:
         if not self.lowest < self.highest:
             raise ValueError(
-                f"the band runs from {self.lowest:g} to {self.highest:g} Hz; exchange them"
+                f"the band runs from {self.lowest:g} to {self.highest:g} Hz; swap its ends"
             )
         return self
 
     @property
     def peak_period(self) -> None:
+        """None: there is no peak."""
         return
 
     @property
@@ -164,10 +180,19 @@ class WhiteNoise(WaveSpectrum, kw_only=False):
 
 
 class TableSpectrum(WaveSpectrum, kw_only=False):
-    """A user's own densities in m2/Hz at frequencies in Hz, linear in between, nothing beyond.
+    """Densities in m2/Hz at frequencies in Hz, linear in between and zero outside.
 
-    It is taken as it is: its area is the variance. Give both columns, or a CSV file with the header
+    The area is the variance. Give both columns, or a CSV file with the header
     ``frequency_hz,density_m2_per_hz``.
+
+    Attributes
+    ----------
+    frequency : tuple of float, Hz
+        Rising frequencies.
+    ordinate : tuple of float, m2/Hz
+        Density at each frequency.
+    file : Path or None
+        CSV file in place of both.
     """
 
     kind: Literal["table"] = Field(default="table", kw_only=True)
@@ -179,8 +204,8 @@ class TableSpectrum(WaveSpectrum, kw_only=False):
     def _here_or_there(self) -> TableSpectrum:
         if (self.file is None) == (not self.frequency and not self.ordinate):
             raise ValueError(
-                "the table is given twice or not at all; give either file, or "
-                "frequency_hz and density_m2_per_hz"
+                "file and the columns are both given, or neither is; give file, or frequency_hz "
+                "and density_m2_per_hz"
             )
         if self.file is None:
             fault = _fault_of_table(self.frequency, self.ordinate)
@@ -195,7 +220,7 @@ class TableSpectrum(WaveSpectrum, kw_only=False):
         Raises
         ------
         InputError
-            A file, or a table in it, that cannot be used.
+            An invalid file or table.
         """
         if self.file is None:
             return np.array(self.frequency), np.array(self.ordinate)
@@ -209,6 +234,7 @@ class TableSpectrum(WaveSpectrum, kw_only=False):
 
     @property
     def significant_height(self) -> float:
+        """Four times the root of the area, in m."""
         frequency, ordinate = self.columns
         return 4 * float(np.sqrt(np.trapezoid(ordinate, frequency)))
 
@@ -219,6 +245,7 @@ class TableSpectrum(WaveSpectrum, kw_only=False):
 
     @property
     def peak_period(self) -> float:
+        """Period in s of the largest density."""
         frequency, ordinate = self.columns
         return 1 / float(frequency[int(np.argmax(ordinate))])
 
@@ -241,29 +268,29 @@ SpectrumChoice = Annotated[
 def _fault_of_table(
     frequency: tuple[float, ...], ordinate: tuple[float, ...]
 ) -> tuple[str, str] | None:
-    """What is wrong with a spectrum's table, and its remedy; None where nothing is."""
+    """Fault of a spectrum's table and its remedy, or None."""
     if len(frequency) < 3 or len(frequency) != len(ordinate):
         return (
             f"{len(frequency)} frequencies and {len(ordinate)} densities",
-            "give three frequencies or more, and a density for each",
+            "give three frequencies or more, and one density per frequency",
         )
     f, s = np.array(frequency), np.array(ordinate)
     step = np.diff(f)
     if f[0] <= 0 or np.any(step <= 0):
         at = f[0] if f[0] <= 0 else f[1:][step <= 0][0]
-        return f"the frequency {at:g} Hz is not above zero and the one before", "sort the table"
+        return f"the frequency {at:g} Hz is not above zero and its predecessor", "sort the table"
     if np.any(s < 0):
         i = int(np.argmax(s < 0))
-        return f"the density at {f[i]:g} Hz is {s[i]} m2/Hz", "a density is 0 or more"
+        return f"the density at {f[i]:g} Hz is {s[i]} m2/Hz", "give 0 or more"
     if not np.any(s > 0):
-        return "all densities are zero", "give some variance, or use still water"
+        return "all densities are zero", "give positive densities, or use still water"
     gap = (step[1:] > _GAP * step[:-1]) | (step[:-1] > _GAP * step[1:])
     if np.any(gap):
         i = int(np.argmax(gap))
         return (
-            f"frequencies step by {step[i]:g} and {step[i + 1]:g} Hz at {f[i + 1]:g} Hz, more than "
-            f"{_GAP:g} times from one to the next: are rows missing?",
-            "fill the gap, with zeros where there are no waves",
+            f"the frequency steps on both sides of {f[i + 1]:g} Hz, {step[i]:g} and "
+            f"{step[i + 1]:g} Hz, differ by more than a factor of {_GAP:g}",
+            "add the missing rows, with zeros where there are no waves",
         )
     return None
 
@@ -280,7 +307,7 @@ def pierson_moskowitz(frequency: Array, significant_height: float, peak_period: 
 def jonswap(
     frequency: Array, significant_height: float, peak_period: float, peak_shape: float
 ) -> Array:
-    """The same with a peak raised by a shape factor gamma from 1 (IEC 61400-3-1, Annex D).
+    """The same with a peak enhanced by a factor gamma of 1 or more (IEC 61400-3-1, Annex D).
 
     S = (1 - 0.287 ln gamma) S_PM gamma^exp(-((f Tp - 1) / sigma)^2 / 2), with sigma 0.07 below and
     0.09 above the peak. The factor in front keeps the area Hs^2 / 16 within 1 % for gamma up to 5,
@@ -320,7 +347,7 @@ def depth_factor(frequency: Array, depth: float, gravity: float) -> Array:
 
 
 def _panels(peak: float) -> tuple[Array, Array]:
-    """Gauss's nodes in Hz and weights over all of a spectrum with a peak at a frequency in Hz."""
+    """Gauss nodes in Hz and weights over a whole spectrum with a peak at a frequency in Hz."""
     edges = peak * np.array(
         [0.3, 0.5, 0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.35, 1.6, 2.0, 3.0, 5.0, 10.0, 30.0, 100.0]
     )

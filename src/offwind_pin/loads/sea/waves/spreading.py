@@ -1,4 +1,4 @@
-"""Short-crested seas: how the directions of waves are spread about their mean."""
+"""Short-crested seas: spreading of wave directions about their mean."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ LARGEST_EXPONENT = 1000.0
 
 
 class Spreading(Definition, kw_only=False):
-    """A density of directions about the mean one; two conventions of the exponent.
+    """Density of directions about the mean, in two conventions of the exponent.
 
     Attributes
     ----------
@@ -22,14 +22,24 @@ class Spreading(Definition, kw_only=False):
         (Longuet-Higgins, Cartwright and Smith 1963), or ``"cos_n"`` for cos^n(theta - mean) within
         90 degrees, whose exponent is n; DNV-RP-C205, 3.5.8, has both.
     exponent : float
-        s or n; the larger the narrower.
+        s or n; larger values give narrower spreading.
     """
 
     kind: Literal["cos_2s", "cos_n"]
     exponent: Annotated[Positive, Field(le=LARGEST_EXPONENT)]
 
     def density(self, angle: Array) -> Array:
-        """(n,) in 1/rad at angles (n,) in rad from the mean direction, from -pi to pi."""
+        """Density of directions.
+
+        Parameters
+        ----------
+        angle : (n,) array, rad
+            From the mean direction, between -pi and pi.
+
+        Returns
+        -------
+        (n,) array, 1/rad
+        """
         from scipy.special import gammaln
 
         if self.kind == "cos_2s":
@@ -41,9 +51,18 @@ class Spreading(Definition, kw_only=False):
         return np.asarray(level * np.maximum(np.cos(angle), 0.0) ** n)
 
     def angles(self, share: Array) -> Array:
-        """(n,) angles in rad from the mean direction, not passed by shares (n,) in 0..1 of all.
+        """Quantiles of the direction, relative to the mean.
 
-        sin^2 of the angle, or of its half, follows a beta distribution.
+        The squared sine of the angle, or of its half, follows a beta distribution.
+
+        Parameters
+        ----------
+        share : (n,) array
+            Cumulative shares from 0 to 1.
+
+        Returns
+        -------
+        (n,) array, rad
         """
         from scipy.special import betaincinv
 

@@ -1,4 +1,4 @@
-"""What a realised sea holds: its variance, height and periods."""
+"""Statistics of a realised sea: variance, height and periods."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from offwind_pin.base.definition import Array
 from offwind_pin.loads.sea.waves.wave_field import WaveField
 
 _PEAK_WIDTH = 0.005
-"""Hz over which components are averaged to find the peak; their single ones may be random."""
+"""Hz over which components are averaged to find the peak, since single ones may be random."""
 
 
 @dataclass(frozen=True)
 class WaveMoments:
-    """Of the components of a sea at the axis, exact over one of its periods.
+    """Moments of the components of a sea at the axis, exact over one of its periods.
 
     Attributes
     ----------
@@ -24,7 +24,7 @@ class WaveMoments:
     m2 : float, m2 Hz2
         Sum of f^2 times the variance of each component.
     peak_period : float, s
-        Where the components' variance, averaged over 0.005 Hz, is largest.
+        Period at which the variance, averaged over 0.005 Hz, is largest.
     """
 
     m0: float
@@ -43,7 +43,7 @@ class WaveMoments:
 
 
 def moments(waves: WaveField) -> WaveMoments:
-    """Moments of the realised components, a mean left out."""
+    """Moments of the realised components, without the mean."""
     moving = waves.harmonic > 0
     harmonic = waves.harmonic[moving]
     variance = np.abs(waves.elevation[moving]) ** 2 / 2

@@ -13,9 +13,9 @@ from offwind_pin.loads.sea.waves.wave_field import WaveField
 class StreamFunctionWaves(WaveField):
     """A :class:`SteadyWave` that passes x = y = 0 with a crest at ``crest_time``.
 
-    The mean Eulerian velocity with which the wave was solved is not in the velocity: it belongs to
-    the current that carries the wave. The acceleration is the total one of the particles, Du/Dt,
-    whose products of N harmonics have 2 N; that is why the field has harmonics 0 ... 2 N.
+    The velocity excludes the mean Eulerian velocity of the solution, which belongs to the current
+    that carries the wave. The acceleration is the total particle acceleration Du/Dt; its products
+    of N harmonics have 2 N, so the field has harmonics 0 ... 2 N.
 
     Parameters
     ----------
@@ -23,7 +23,7 @@ class StreamFunctionWaves(WaveField):
         Towards which the wave travels, from +x towards +y.
     crest_time : float, s
     total_acceleration : bool
-        False for the local acceleration at a fixed point.
+        Whether the acceleration includes the convective term.
     """
 
     exact_surface = True
@@ -58,12 +58,12 @@ class StreamFunctionWaves(WaveField):
             return super().acceleration(height)
         along, up = self._amplitudes(height)
         order = self.wave.order
-        # more points than the products have harmonics, so that the transform is exact
+        # more points than harmonics of the products make the transform exact
         angle = 2 * np.pi * np.arange(4 * order + 2) / (4 * order + 2)
         j = np.arange(order + 1)
         cos, sin = np.cos(np.outer(j, angle)), np.sin(np.outer(j, angle))
         number = j * self.wave.wave_number
-        # seen from the crest the motion is steady: D/Dt = u d/dx + w d/dz, with u_x = -w_z
+        # in the frame of the crest the motion is steady: D/Dt = u d/dx + w d/dz, with u_x = -w_z
         u, w = along @ cos, up @ sin
         u_by_x, u_by_z = -(number * along) @ sin, (number * up) @ cos
         w_by_x, w_by_z = u_by_z, -u_by_x
@@ -72,7 +72,8 @@ class StreamFunctionWaves(WaveField):
         )
 
     def _amplitudes(self, height: Array) -> tuple[Array, Array]:
-        """(n, N + 1) of cos j k x along the wave, of sin j k x upwards, seen from the crest."""
+        """(n, N + 1) of cos j k x along the wave, of sin j k x upwards, in the frame of the
+        crest."""
         height = np.asarray(height, dtype=float)
         number = np.arange(1.0, self.wave.order + 1) * float(self.wave.wave_number)
         cosh, sinh = depth_functions(number, height[:, None], self.wave.depth)
@@ -84,13 +85,14 @@ class StreamFunctionWaves(WaveField):
         return along, up
 
     def _from_cosines(self, amplitude: Array) -> ComplexArray:
-        """(n, m) from amplitudes of cos j k x; at x = 0, k x is -omega t as seen from the crest."""
+        """(n, m) from amplitudes of cos j k x; at x = 0, k x is -omega t in the frame of the
+        crest."""
         result = np.zeros((len(amplitude), len(self.harmonic)), dtype=complex)
         result[:, : amplitude.shape[1]] = amplitude
         return result * self._shift
 
     def _from_points(self, value: Array) -> ComplexArray:
-        """(n, m) from values over one wave, at equal steps of k x from the crest on."""
+        """(n, m) from values over one wave, at equal steps of k x from the crest."""
         amplitude = np.fft.rfft(value, axis=1)[:, : len(self.harmonic)] * (2 / value.shape[1])
         amplitude[:, 0] /= 2
         return np.conj(amplitude) * self._shift

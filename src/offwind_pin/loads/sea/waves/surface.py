@@ -1,4 +1,4 @@
-"""The surface of waves wherever one looks, not at the structure's axis alone."""
+"""The water surface around the structure, not only at its axis."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from offwind_pin.loads.sea.waves.stream_function import StreamFunctionWaves
 from offwind_pin.loads.sea.waves.wave_field import WaveField
 
 MOST_COMPONENTS = 4000
-"""Components that are all kept; of more, the fewest that hold :data:`KEPT_SHARE`."""
+"""Number of components up to which all are kept; of more, the fewest with :data:`KEPT_SHARE`."""
 KEPT_SHARE = 0.999
-"""Of the variance of the surface."""
+"""Fraction of the variance of the surface."""
 _AT_ONCE = 16
-"""Instants of a patch of sea that are summed at once, to bound the memory."""
+"""Number of instants of a patch of sea that are summed at once, to limit memory."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,17 +42,17 @@ class SurfaceWaves:
 
     @staticmethod
     def of(waves: WaveField) -> SurfaceWaves | None:
-        """Of a field whose spread over the plane is known: free components, or a steady wave.
+        """Surface of a field that is known over the plane: free components, or a steady wave.
 
-        Of waves of second order it is the linear part; what is bound to pairs of one frequency is
-        of many lengths.
+        For second-order waves it is the linear part, since the bound components of one frequency
+        have many wave lengths.
         """
         waves = waves.first_order
         if isinstance(waves, LinearWaves):
             along: Array = waves.wave_number
             angle = waves.direction
         elif isinstance(waves, StreamFunctionWaves):
-            # its harmonics are bound to the first, and travel with it
+            # its harmonics are bound to the first and travel with it
             along = waves.harmonic * float(waves.wave.wave_number)
             angle = np.full(len(along), waves.direction)
         else:
@@ -63,7 +63,7 @@ class SurfaceWaves:
         return every.part(waves.elevation != 0)
 
     def part(self, chosen: NDArray[np.bool_] | NDArray[np.intp]) -> SurfaceWaves:
-        """Some of the components, by a mask or by their places."""
+        """Some of the components, by a mask or by indices."""
         return SurfaceWaves(
             self.frequency[chosen],
             self.elevation[chosen],
@@ -72,7 +72,7 @@ class SurfaceWaves:
         )
 
     def largest(self, most: int = MOST_COMPONENTS, share: float = KEPT_SHARE) -> SurfaceWaves:
-        """All components, or of more than ``most`` the fewest with a share of the variance."""
+        """All components or, of more than ``most``, the fewest with a fraction of the variance."""
         if len(self.frequency) <= most:
             return self
         power = np.abs(self.elevation) ** 2
@@ -81,7 +81,7 @@ class SurfaceWaves:
         return self.part(np.sort(falling[:count]))
 
     def longer_than(self, length: float) -> SurfaceWaves:
-        """Components whose waves are at least so long in m."""
+        """Components with wave lengths of at least a length in m."""
         return self.part(np.hypot(self.number_x, self.number_y) * length <= 2 * np.pi)
 
     def at(self, time: Array, x: Array, y: Array) -> Array:

@@ -1,4 +1,4 @@
-"""Measured surface elevations, and the harmonics that linear waves replay them with."""
+"""Measured surface elevations, and their harmonics for linear waves."""
 
 from __future__ import annotations
 
@@ -24,21 +24,21 @@ from offwind_pin.base.errors import InputError
 from offwind_pin.base.number_tables import read_time_columns
 
 HIGHEST_SURFACE = 40.0
-"""m; beyond any sea, but what cm, mm and marks of missing values give."""
+"""m; larger than any wave, but exceeded by values in cm or mm and by markers of missing values."""
 
 FEWEST_SAMPLES = 64
 _COARSEST = 5.0
 """s, as long as the shortest waves of a sea: longer steps are more likely ms."""
 
 _UNEVEN = 0.02
-"""Of a step, by which times rounded in a file may depart from even ones."""
+"""Fraction of a step by which times rounded in a file may deviate from even ones."""
 
 TAPERED = 0.01
-"""Of the record at each end, over which it fades unless another taper is given."""
+"""Default taper at each end, as a fraction of the record."""
 
 
 class SurfaceRecord(Definition, kw_only=False):
-    """Surface elevations at even times from 0 on.
+    """Surface elevations at equal intervals from time 0.
 
     Attributes
     ----------
@@ -47,9 +47,9 @@ class SurfaceRecord(Definition, kw_only=False):
     origin : str
         Where the numbers come from.
     start : float, s
-        The first time of the samples it was made from.
+        First time of the original samples.
     resampled : bool
-        Whether those were not even.
+        Whether the original samples were unevenly spaced.
     """
 
     dt: Positive = key("dt_s")
@@ -60,17 +60,29 @@ class SurfaceRecord(Definition, kw_only=False):
 
     @property
     def duration(self) -> float:
-        """In s, after which the record repeats: one step after its last sample."""
+        """Duration in s after which the record repeats: one step after its last sample."""
         return len(self.elevation) * self.dt
 
     @staticmethod
     def of(time: Array, elevation: Array, origin: str) -> SurfaceRecord:
-        """From samples (t,) at times (t,) in s, which are interpolated linearly if not even.
+        """A record from samples, which are interpolated linearly if they are not evenly spaced.
+
+        Parameters
+        ----------
+        time : (t,) array, s
+            Sample times.
+        elevation : (t,) array, m
+        origin : str
+            Where the numbers come from.
+
+        Returns
+        -------
+        SurfaceRecord
 
         Raises
         ------
         InputError
-            Too few samples, times that do not rise, numbers that are no elevations in m.
+            Too few samples, times that do not rise, implausible elevations.
         """
         if len(time) != len(elevation) or len(time) < FEWEST_SAMPLES:
             received = f"{len(time)} times and {len(elevation)} elevations"
@@ -89,7 +101,9 @@ class SurfaceRecord(Definition, kw_only=False):
                 "Is the unit m? Does a number such as 999.99 mark missing values?",
             )
         if np.ptp(elevation) == 0:
-            raise InputError(f"{origin}, elevation", worst, "a surface that moves", "Check it.")
+            raise InputError(
+                f"{origin}, elevation", worst, "a surface that varies", "Check the record."
+            )
         count, dt = len(time), float(time[-1] - time[0]) / (len(time) - 1)
         uneven = np.max(np.abs(time - time[0] - dt * np.arange(count))) > _UNEVEN * dt
         if uneven:
@@ -101,11 +115,21 @@ class SurfaceRecord(Definition, kw_only=False):
     def harmonics(
         self, low_cut: float, high_cut: float, taper: float | None = None
     ) -> RecordHarmonics:
-        """What linear waves replay: the record between two frequencies in Hz.
+        """Harmonics of the record between two frequencies, which linear waves reproduce.
 
-        Mean and linear trend are taken off, the ends fade over a taper in s by a cosine (by default
-        over a hundredth of the record), so that the record may repeat; then all frequencies beyond
-        the cuts are left out.
+        Mean and linear trend are removed, and the ends are tapered by a cosine so that the record
+        can repeat; then frequencies outside the band are removed.
+
+        Parameters
+        ----------
+        low_cut, high_cut : float, Hz
+            Ends of the band.
+        taper : float, s, optional
+            Length of the taper at each end; by default a hundredth of the record.
+
+        Returns
+        -------
+        RecordHarmonics
         """
         from scipy.signal.windows import tukey
 
@@ -135,7 +159,7 @@ class SurfaceRecord(Definition, kw_only=False):
 
 @dataclass(frozen=True, eq=False)
 class RecordHarmonics:
-    """Of a record's length.
+    """Harmonics of a record.
 
     Attributes
     ----------
@@ -144,11 +168,11 @@ class RecordHarmonics:
     elevation : (m,) complex array
         m Complex amplitudes.
     mean, trend : float, m
-        Taken off; the trend over the whole record.
+        Removed from the record; the trend is over its whole length.
     fade : float, s
-        Over which each end was faded.
+        Length of the taper at each end.
     left_out : float
-        Share of the variance beyond the cuts.
+        Fraction of the variance outside the cuts.
     """
 
     harmonic: Array

@@ -1,4 +1,4 @@
-"""Waves that look like a mistake, or for which linear theory is the wrong one."""
+"""Checks for waves that look like a mistake, or to which linear theory does not apply."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ import numpy as np
 from offwind_pin.loads.sea.waves.dispersion import wave_number
 
 DEPTH_LIMIT = 0.78
-"""Height of a solitary wave that breaks over the depth (McCowan 1894)."""
+"""Breaking height of a solitary wave over the depth (McCowan 1894)."""
 
 SECOND_ORDER = 0.1
-"""Share of Stokes's second harmonic in a wave's amplitude from which linear theory is doubtful."""
+"""Stokes's second harmonic over a wave's amplitude above which linear theory is doubtful."""
 
 SECONDARY_CREST = 0.25
-"""The same from which cos(x) + share cos(2 x) has a second maximum, at x = pi."""
+"""The same above which cos(x) + share cos(2 x) has a second maximum, at x = pi."""
 
 LOW_PERIOD = 3.6
 """Lowest Tp / sqrt(Hs) of wind seas, in s/m^(1/2) (DNV-RP-C205, 3.5.5; IEC 61400-3-1, Annex D)."""
@@ -52,7 +52,7 @@ def steepest_sea(peak_period: float) -> float:
 def regular_wave_cautions(
     height: float, wave_number: float, depth: float, order: int = 1
 ) -> list[str]:
-    """Sentences about a regular wave by a theory of an order, 1 or 2.
+    """Cautions about a regular wave by theory of order 1 or 2.
 
     height from trough to crest and depth in m, wave_number in rad/m
     """
@@ -74,10 +74,10 @@ def irregular_wave_cautions(
     wind_sea: bool,
     order: int = 1,
 ) -> list[str]:
-    """Sentences about a sea by a theory of an order, 1 or 2.
+    """Cautions about a sea by theory of order 1 or 2.
 
-    significant_height and depth in m, peak_period in s, gravity in m/s2; wind_sea whether the state
-    is one of Hs and Tp, for which limits of steepness are known
+    significant_height and depth in m, peak_period in s, gravity in m/s2; wind_sea : whether the sea
+    is defined by Hs and Tp, for which limits of steepness are known
     """
     told = []
     steepness = 2 * np.pi * significant_height / (gravity * peak_period**2)
@@ -86,20 +86,20 @@ def irregular_wave_cautions(
         told.append(
             f"Hs {significant_height:.3g} m with Tp {peak_period:.3g} s has a steepness of 1/"
             f"{1 / steepness:.3g}; seas reach 1/{1 / steepest:.3g} at most (DNV-RP-C205, 3.5.4); "
-            "is it Tp, and no Tz?"
+            "is the period Tz rather than Tp?"
         )
     elif wind_sea and peak_period / np.sqrt(significant_height) < LOW_PERIOD:
         ratio = peak_period / np.sqrt(significant_height)
         told.append(
-            f"Tp / sqrt(Hs) is {ratio:.3g}, below the {LOW_PERIOD:g} of the steepest wind seas for "
-            "which JONSWAP's spectrum was found"
+            f"Tp / sqrt(Hs) is {ratio:.3g}, below {LOW_PERIOD:g}, the steepest wind seas for "
+            "which the JONSWAP spectrum was derived"
         )
     highest = HIGHEST_OF_MANY * significant_height
     if highest > DEPTH_LIMIT * depth:
         told.append(
             f"Hs {significant_height:.3g} m in {depth:.3g} m of water: the highest of 1000 waves, "
-            f"{highest:.3g} m by Rayleigh's distribution, would break at {DEPTH_LIMIT:g} of the "
-            "depth"
+            f"{highest:.3g} m by the Rayleigh distribution, exceeds the breaking limit of "
+            f"{DEPTH_LIMIT:g} times the depth"
         )
     k = float(wave_number(np.array([2 * np.pi / peak_period]), depth, gravity)[0])
     remedy = "waves of order 2" if order == 1 else "the highest wave as a stream function wave"
@@ -107,7 +107,7 @@ def irregular_wave_cautions(
 
 
 def crest_cautions(crest: float, peak_period: float, depth: float, gravity: float) -> list[str]:
-    """Sentences about a crest of a height in m above the mean water level, by linear theory."""
+    """Cautions about a crest of a height in m above the mean water level, by linear theory."""
     k = float(wave_number(np.array([2 * np.pi / peak_period]), depth, gravity)[0])
     limit = breaking_height(k, depth)
     if 2 * crest <= limit:
@@ -123,12 +123,12 @@ def _nonlinearity(amplitude: float, k: float, depth: float, order: int, remedy: 
     wave = f"{100 * share:.2g} % of the amplitude of a wave {2 * amplitude:.3g} m high"
     if order == 1 and share > SECOND_ORDER:
         return [
-            f"linear theory leaves out a second harmonic of {wave}: crests are too low, troughs "
+            f"linear theory neglects a second harmonic of {wave}: crests are too low and troughs "
             f"too deep; consider {remedy}"
         ]
     if order == 2 and share > SECONDARY_CREST:
         return [
-            f"the second harmonic is {wave}: beyond {100 * SECONDARY_CREST:g} % theory of second "
-            f"order has crests in its troughs; consider {remedy}"
+            f"the second harmonic is {wave}: above {100 * SECONDARY_CREST:g} % second-order theory "
+            f"has secondary crests in the troughs; consider {remedy}"
         ]
     return []

@@ -1,4 +1,4 @@
-"""What every kind of waves is reduced to: harmonics of one period, seen at the structure's axis."""
+"""Base class of waves: harmonics of one period at the structure's axis."""
 
 from __future__ import annotations
 
@@ -17,18 +17,18 @@ class WaveField(ABC):
     Attributes
     ----------
     period : float, s
-        After which the waves repeat.
+        Period after which the waves repeat.
     harmonic : (m,) array
         Whole numbers from 0 (a mean, such as a return current) upwards.
     elevation : (m,) complex array, m
         Complex amplitudes of the surface above the mean water level.
     wave_number : (m,) array, rad/m
-        Of free waves of these frequencies, for diffraction.
+        Wave numbers of free waves of these frequencies, for diffraction.
     depth : float, m
         From the mudline to the mean water level.
     gravity : float, m/s2
     exact_surface : bool
-        Whether the kinematics hold up to the moving surface, and are not to be stretched to it.
+        Whether the kinematics are valid up to the moving surface and must not be stretched.
     """
 
     period: float
@@ -46,17 +46,35 @@ class WaveField(ABC):
 
     @property
     def first_order(self) -> WaveField:
-        """The free waves alone, where the field tells them from what they bind; else all of it."""
+        """The free waves alone, if the field distinguishes them from bound ones; otherwise
+        itself."""
         return self
 
     @abstractmethod
     def velocity(self, height: Array) -> ComplexArray:
-        """(3, n, m) complex amplitudes of the particle velocity in m/s.
+        """Complex amplitudes of the particle velocity.
 
-        height : (n,) in m above the mean water level, from -depth up; linear
-        fields give the values at 0 above it, exact ones their own formula
+        Parameters
+        ----------
+        height : (n,) array, m
+            Above the mean water level, from -depth upwards. Above the level linear fields return
+            their values at it, exact ones evaluate their own formula.
+
+        Returns
+        -------
+        (3, n, m) complex array, m/s
         """
 
     def acceleration(self, height: Array) -> ComplexArray:
-        """(3, n, m) of the particle acceleration in m/s2, the local one unless overridden."""
+        """Complex amplitudes of the particle acceleration, the local one unless overridden.
+
+        Parameters
+        ----------
+        height : (n,) array, m
+            As for :meth:`velocity`.
+
+        Returns
+        -------
+        (3, n, m) complex array, m/s2
+        """
         return 1j * self.omega * self.velocity(height)

@@ -45,7 +45,7 @@ class ApiSandFamily(SoilFamily[ApiSand]):
         if not low <= layer.friction_angle <= high:
             found.append(
                 f"{layer_label(layer)}: a friction angle of {layer.friction_angle:g} deg is "
-                f"outside {low:g} to {high:g} deg, for which API gives an initial modulus"
+                f"outside {low:g} to {high:g} deg, the range for which API gives an initial modulus"
             )
         return found
 
@@ -69,9 +69,10 @@ def resistance_factors(friction_angle: float) -> tuple[float, float, float]:
 
 
 def initial_modulus(friction_angle: float) -> float:
-    """Rise k of the initial modulus with depth in N/m3, below water; friction angle in degrees.
+    """Rate k of increase of the initial modulus with depth in N/m3, below water; angle in degrees.
 
-    A parabola fitted for sand below water, not less than 5.4 MN/m3, API's value at 25 degrees.
+    A parabola fitted to API's values for sand below water, at least 5.4 MN/m3, the value at 25
+    degrees.
     """
     phi = friction_angle
     return max(_LEAST_MODULUS, 1e6 * (0.1978 * phi**2 - 10.232 * phi + 136.82))

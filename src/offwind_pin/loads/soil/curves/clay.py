@@ -21,12 +21,12 @@ SOFT_STRENGTH = 100e3
 
 _STIFF_J = 0.5
 _LINE_END = 1 / 160
-"""Where the straight line from the origin of stiff clay meets the curve, over y_u. The published
-curve rises there without bound; 0.1 y50, as the first point of Matlock's table, is y_u / 160."""
+"""End of the initial straight line of stiff clay, over y_u. The published curve has infinite slope
+at the origin; 0.1 y50, as the first point of Matlock's table, is y_u / 160."""
 
 
 class MatlockClayFamily(SoilFamily[MatlockClay]):
-    """Polygons of API RP 2GEO for Matlock's curves.
+    """Matlock's curves as polygons of API RP 2GEO.
 
     Above the depth z_R cyclic curves fall from 0.72 p_u at 3 y50 to 0.72 p_u z / z_R at 15 y50.
     """
@@ -51,7 +51,7 @@ class MatlockClayFamily(SoilFamily[MatlockClay]):
         strength = layer.undrained_shear_strength.at(nodes.original_depth)
         if np.any(strength > SOFT_STRENGTH):
             found.append(
-                f"{layer_label(layer)}: Matlock's curves are for soft clay, su up to "
+                f"{layer_label(layer)}: Matlock's curves apply to soft clay, su up to "
                 f"{SOFT_STRENGTH / 1e3:g} kPa"
             )
         return found
@@ -60,8 +60,8 @@ class MatlockClayFamily(SoilFamily[MatlockClay]):
 class StiffClayFamily(SoilFamily[StiffClay]):
     """p = p_u / 2 (y / y50)^(1/4) up to p_u at 16 y50, and p_u beyond.
 
-    Under N cycles y grows by y50 C log10 N with C = 9.6 (p / p_u)^4, which leaves the same law with
-    p_u at (16 + 9.6 log10 N) y50.
+    Under N cycles y increases by y50 C log10 N with C = 9.6 (p / p_u)^4, which gives the same law
+    with p_u at (16 + 9.6 log10 N) y50.
     """
 
     layer = StiffClay

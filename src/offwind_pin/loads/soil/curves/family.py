@@ -1,4 +1,4 @@
-"""Families of soil reactions: how a layer of the ground becomes curves at the nodes of a pile."""
+"""Families of soil reaction curves: from a soil layer to curves at the nodes of a pile."""
 
 from __future__ import annotations
 
@@ -39,38 +39,107 @@ class RockingCurves:
 
 
 class SoilFamily(ABC, Generic[Kind]):
-    """A family of curves: base class of the package's and of a user's own.
+    """A family of curves: base class of the package's families and of your own.
 
-    Stresses are the vertical effective ones in Pa at the nodes.
+    Stresses are vertical effective stresses in Pa at the nodes.
     """
 
     layer: ClassVar[type[SoilLayer]]
-    """The definition that it makes curves of."""
+    """Definition of the layers of this family."""
 
     @abstractmethod
     def lateral(self, layer: Kind, nodes: PileNodes, stress: Array, loading: Loading) -> SoilCurve:
-        """p in N/m over y in m at the nodes of a layer.
+        """Lateral resistance p in N/m over y in m at the nodes of a layer.
+
+        Parameters
+        ----------
+        layer : SoilLayer
+        nodes : PileNodes
+            Nodes in the layer.
+        stress : (n,) array, Pa
+            Vertical effective stress at the nodes.
+        loading : Loading
+            Static or cyclic.
+
+        Returns
+        -------
+        SoilCurve
 
         Raises
         ------
         InputError
-            No such curves for this pile.
+            A pile outside the range of the curves.
         """
 
     def rocking(self, layer: Kind, nodes: PileNodes, stress: Array) -> RockingCurves | None:
-        """Distributed moment at the nodes of a layer, or None."""
+        """Distributed moment at the nodes of a layer.
+
+        Parameters
+        ----------
+        layer : SoilLayer
+        nodes : PileNodes
+            Nodes in the layer.
+        stress : (n,) array, Pa
+            Vertical effective stress at the nodes.
+
+        Returns
+        -------
+        RockingCurves or None
+            None if the family has none.
+        """
         return None
 
     def base_shear(self, layer: Kind, toe: PileNodes, stress: Array) -> SoilCurve | None:
-        """H in N over the horizontal displacement in m at the toe, or None."""
+        """Shear in N over the horizontal displacement in m at the toe.
+
+        Parameters
+        ----------
+        layer : SoilLayer
+            Layer at the toe.
+        toe : PileNodes
+            The node at the toe.
+        stress : (1,) array, Pa
+            Vertical effective stress there.
+
+        Returns
+        -------
+        SoilCurve or None
+            None if the family has none.
+        """
         return None
 
     def base_moment(self, layer: Kind, toe: PileNodes, stress: Array) -> SoilCurve | None:
-        """M in N m over the rotation in rad at the toe, or None."""
+        """Moment in N m over the rotation in rad at the toe.
+
+        Parameters
+        ----------
+        layer : SoilLayer
+            Layer at the toe.
+        toe : PileNodes
+            The node at the toe.
+        stress : (1,) array, Pa
+            Vertical effective stress there.
+
+        Returns
+        -------
+        SoilCurve or None
+            None if the family has none.
+        """
         return None
 
     def cautions(self, layer: Kind, nodes: PileNodes) -> list[str]:
-        """Sentences about nodes outside what the curves were derived for."""
+        """Cautions about nodes outside the range for which the curves were derived.
+
+        Parameters
+        ----------
+        layer : SoilLayer
+        nodes : PileNodes
+            Nodes in the layer.
+
+        Returns
+        -------
+        list of str
+        """
         return []
 
 
@@ -78,7 +147,11 @@ _families: dict[type[SoilLayer], SoilFamily[Any]] = {}
 
 
 def register_family(family: SoilFamily[Any]) -> None:
-    """Use a family for the layers that it is for; the layer becomes known to files as well.
+    """Register a family for its layers, which then can be used in files as well.
+
+    Parameters
+    ----------
+    family : SoilFamily
 
     Raises
     ------
@@ -90,12 +163,12 @@ def register_family(family: SoilFamily[Any]) -> None:
 
 
 def family_of(layer: SoilLayer) -> SoilFamily[Any]:
-    """The family that makes curves of a layer.
+    """Family of a layer.
 
     Raises
     ------
     InputError
-        None is registered.
+        No family is registered for it.
     """
     if type(layer) not in _families:
         raise InputError(
@@ -108,16 +181,16 @@ def family_of(layer: SoilLayer) -> SoilFamily[Any]:
 
 
 def diameter_cautions(layer: SoilLayer, nodes: PileNodes) -> list[str]:
-    """A sentence about a pile larger than those of the tests behind API's curves."""
+    """Caution about a pile larger than those of the tests behind API's curves."""
     largest = float(nodes.diameter.max())
     if largest <= API_DIAMETER:
         return []
     return [
-        f"{layer_label(layer)}: the curves come from piles of at most {API_DIAMETER:g} m in "
+        f"{layer_label(layer)}: the curves are based on piles of at most {API_DIAMETER:g} m in "
         f"diameter; this pile has {largest:g} m"
     ]
 
 
 def layer_label(layer: SoilLayer) -> str:
-    """A layer as messages call it."""
+    """Name of a layer in messages."""
     return f"{layer.model} layer from {layer.top:g} m"

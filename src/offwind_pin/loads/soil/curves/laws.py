@@ -42,7 +42,7 @@ class LinearCurves(SoilCurve):
 
 @dataclass(frozen=True, eq=False)
 class TanhCurves(SoilCurve):
-    """p = p_u tanh(k y / p_u), and nothing where p_u is zero.
+    """p = p_u tanh(k y / p_u), and zero where p_u is zero.
 
     initial_modulus : (n,) k in N/m2
     ultimate : (n,) p_u in N/m
@@ -72,16 +72,16 @@ class TanhCurves(SoilCurve):
         if ultimate <= 0 or modulus <= 0:
             return 0.0
         x = modulus * y / ultimate
-        # ln cosh x, without overflow and without loss of digits where x is small
+        # ln cosh x, without overflow, and without cancellation for small x
         log_cosh = x + np.log1p(np.expm1(-2 * x) / 2) if x > 1e-3 else x**2 / 2 - x**4 / 12
         return ultimate**2 / modulus * log_cosh
 
 
 @dataclass(frozen=True, eq=False)
 class PolygonCurves(SoilCurve):
-    """Polygons through points, the first at the origin; constant past the last.
+    """Polygons through points, the first at the origin; constant beyond the last.
 
-    deflection : (n, m) of the points in m, rising
+    deflection : (n, m) of the points in m, increasing
     reaction : (n, m) resistance there in N/m
     """
 
@@ -175,11 +175,11 @@ class PowerCurves(SoilCurve):
 
 @dataclass(frozen=True, eq=False)
 class ConicCurves(SoilCurve):
-    """Conics of PISA, of which zero curvature leaves two straight lines.
+    """Conics of PISA; with zero curvature two straight lines.
 
     end : (n,) y_u in m
-    ultimate : (n,) p_u in N/m from there on; without any there is no resistance at all
-    slope_ratio : (n,) K >= 1, so that the initial slope is K p_u / y_u; 1 leaves the chord
+    ultimate : (n,) p_u in N/m beyond y_u; zero gives no resistance
+    slope_ratio : (n,) K >= 1, so that the initial slope is K p_u / y_u; 1 gives the chord
     curvature : (n,) n, 0 <= n < 1
     """
 
@@ -189,7 +189,7 @@ class ConicCurves(SoilCurve):
     curvature: Array
 
     def __post_init__(self) -> None:
-        # at K = 1 the conic degenerates into the chord, whatever its curvature
+        # at K = 1 the conic degenerates to the chord for any curvature
         straight = self.slope_ratio <= 1 + _STRAIGHT
         object.__setattr__(self, "curvature", np.where(straight, 0.0, self.curvature))
         object.__setattr__(self, "slope_ratio", np.maximum(self.slope_ratio, 1.0))
@@ -211,7 +211,7 @@ class ConicCurves(SoilCurve):
 def _conic_secant(parameters: Array, y: float) -> tuple[float, float]:
     """Secant stiffness, and the root of the discriminant, zero where the curve is straight."""
     # -n (Y - X)^2 + (1 - n) (Y - K X) (Y - 1) = 0 in X = y / y_u and Y = p / p_u, solved for Y; the
-    # discriminant is a sum of terms that are not negative, so that no digits are lost
+    # discriminant is a sum of non-negative terms, without cancellation
     end, ultimate, stiffness, n = parameters[0], parameters[1], parameters[2], parameters[3]
     if ultimate <= 0:
         return 0.0, 0.0
@@ -240,7 +240,7 @@ def _conic_tangent(parameters: Array, y: float) -> float:
     if root == 0:
         return secant if x < 1 and line < 1 else 0.0
     chord, m = ultimate / end, 1 - n
-    # 1 - Y: near the plateau the difference would lose its digits
+    # 1 - Y: near the plateau the difference would cancel
     gap = 1 - secant * y / ultimate
     if line >= 1:
         gap = 2 * n * (1 - x) ** 2 / (root + m * (line - 1) + 2 * n * (1 - x))

@@ -1,4 +1,4 @@
-"""Curves of a pile's nodes from the definition of the ground."""
+"""Curves at a pile's nodes from the definition of the ground."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ for _family in (ApiSandFamily(), MatlockClayFamily(), StiffClayFamily(), PisaFam
 def lateral_curves(curve: LateralCurve, nodes: PileNodes) -> SoilCurves:
     """p in N/m over y in m at every node.
 
-    In layered ground a node takes the curve of the layer it lies in, exactly on a boundary of the
-    layer below. Properties of the layers stay where they are; depth and overburden count from the
-    actual mudline. Other curves are taken by depth below the actual mudline.
+    In layered ground a node has the curve of the layer that contains it; exactly on a boundary, of
+    the layer below. Layers stay where they are; depth and overburden are measured from the actual
+    mudline. Other curves are evaluated at the depth below the actual mudline.
 
     Raises
     ------
     InputError
-        A table that cannot be read, or a pile outside what a family can describe.
+        An invalid table, or a pile outside the range of a family.
     """
     if not isinstance(curve, LayeredGround):
         return soil_curves(curve, nodes.depth)
@@ -42,12 +42,12 @@ def lateral_curves(curve: LateralCurve, nodes: PileNodes) -> SoilCurves:
 
 
 def rocking_curves(curve: LateralCurve, nodes: PileNodes) -> tuple[Indices, RockingCurves] | None:
-    """Distributed moments, and the nodes in whose layers there are some; None without any.
+    """Distributed moments, and the nodes that have them; None without any.
 
     Raises
     ------
     InputError
-        A pile outside what a family can describe.
+        A pile outside the range of a family.
     """
     if not isinstance(curve, LayeredGround):
         return None
@@ -92,7 +92,7 @@ def _at_toe(curve: LateralCurve, nodes: PileNodes) -> tuple[SoilLayer, PileNodes
 
 
 def _by_layer(curve: LayeredGround, nodes: PileNodes) -> list[tuple[Indices, SoilLayer, Array]]:
-    """Nodes of each layer that has some, the layer, and the stresses at the nodes."""
+    """Nodes of each layer that contains nodes, the layer, and the stresses at the nodes."""
     stress, index = effective_stress(curve.layers, nodes), layer_index(curve.layers, nodes)
     places = [np.flatnonzero(index == i) for i in np.unique(index)]
     return [(at, curve.layers[index[at[0]]], stress[at]) for at in places]

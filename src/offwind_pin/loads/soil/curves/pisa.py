@@ -28,8 +28,8 @@ PISA_RELATIVE_DENSITY = (0.45, 0.9)
 class PisaFamily(SoilFamily[Pisa]):
     """Lateral resistance and rocking moment along the pile, shear and moment at its base.
 
-    All raise :class:`InputError` for a pile so far outside the calibration that there is no such
-    curve.
+    All raise :class:`InputError` for a pile so far outside the calibration that the curve does not
+    exist.
     """
 
     layer = Pisa
@@ -67,20 +67,20 @@ class PisaFamily(SoilFamily[Pisa]):
         if not (low <= slenderness[0] and slenderness[1] <= high):
             found.append(
                 f"{layer_label(layer)}: PISA was calibrated for L/D from {low:g} to {high:g}; this "
-                f"pile has {slenderness[0]:.3g}"
+                f"pile has L/D = {slenderness[0]:.3g}"
             )
         low, high = PISA_RELATIVE_DENSITY
         if layer.relative_density is not None and not low <= layer.relative_density <= high:
             found.append(
                 f"{layer_label(layer)}: a relative density of {layer.relative_density:g} is "
-                f"outside {low:g} to {high:g}, for which the sand model was calibrated"
+                f"outside {low:g} to {high:g}, the calibrated range of the sand model"
             )
         return found
 
 
 @dataclass(frozen=True, eq=False)
 class _Conic:
-    """Normalised parameters at n nodes, and what they are normalised by, both in Pa."""
+    """Normalised parameters at n nodes, and the strength and modulus that normalise them, in Pa."""
 
     strength: Array
     shear_modulus: Array
@@ -125,7 +125,8 @@ class _Conic:
         return _Conic(strength, shear_modulus, displacement, resistance, ratio, curvature)
 
     def curves(self, length: Array | float, area: Array | float) -> ConicCurves:
-        """With displacements times length strength / G0, and resistances times area strength."""
+        """Curves with displacements scaled by length strength / G0, resistances by area
+        strength."""
         firm = self.strength > 0
         shear = np.divide(
             self.strength, self.shear_modulus, out=np.ones_like(firm, float), where=firm

@@ -30,19 +30,19 @@ _SAND_PEAK = 2.5e-3
 _CLAY_SHAFT = np.array(
     [[0, 0.0016, 0.0031, 0.0057, 0.008, 0.01, 0.02], [0, 0.3, 0.5, 0.75, 0.9, 1, 1]]
 )
-"""z / D over t / t_max of clay, API RP 2GEO (2011), 8.4; the residual ratio goes last."""
+"""z / D over t / t_max of clay, API RP 2GEO (2011), 8.4; the residual ratio is added at the end."""
 
 _BEARING = np.array([[0, 0.002, 0.013, 0.042, 0.073, 0.1], [0, 0.25, 0.5, 0.75, 0.9, 1]])
 """z / D over Q / Q_p, API RP 2GEO (2011), 8.4."""
 
 
 def vertical_curves(springs: DistributedSprings, nodes: PileNodes) -> SoilCurve | None:
-    """t in N/m over the size of z in m along the shaft, or None; depth below the actual mudline.
+    """t in N/m over abs(z) in m along the shaft, or None; depth below the actual mudline.
 
     Raises
     ------
     InputError
-        A table that cannot be read.
+        An invalid table.
     """
     curve, depth = springs.vertical, nodes.depth
     if curve is None:
@@ -58,7 +58,7 @@ def vertical_curves(springs: DistributedSprings, nodes: PileNodes) -> SoilCurve 
 
 
 def torsional_curves(springs: DistributedSprings, nodes: PileNodes) -> SoilCurve | None:
-    """Torque per length in N m/m over the size of the twist in rad; as ``vertical_curves``.
+    """Torque per length in N m/m over abs(twist) in rad; as ``vertical_curves``.
 
     Skin friction f gives the torque pi D^2 / 2 f(theta D / 2).
     """

@@ -1,8 +1,8 @@
 """Soil curves at the nodes of a pile, and the base class of their laws.
 
-A lateral curve gives p in N/m over y in m; the same laws serve t over z and torque over twist. A
-law is one class, :class:`SoilCurve`, with its functions of one curve. Compiled code is made for
-each law by itself, so that laws from outside the package run at the same speed.
+A lateral curve gives p in N/m over y in m; the same laws are used for t over z and torque over
+twist. A law is one class, :class:`SoilCurve`, with functions of a single curve. Code is compiled
+for each law separately, so that laws from outside the package are as fast.
 """
 
 from __future__ import annotations
@@ -26,10 +26,10 @@ from offwind_pin.base.kernels import ExchangeableKernel, exchangeable
 
 Indices = NDArray[np.intp]
 Places = NDArray[np.intp] | NDArray[np.bool_]
-"""Some of the nodes, by number or by a mask."""
+"""Some of the nodes, by index or by a mask."""
 
 ON_BOUNDARY = 1e-9
-"""Depths in m that differ by less are the same: heights of nodes carry rounding errors."""
+"""Depths in m that differ by less are equal: heights of nodes have rounding errors."""
 
 
 class SoilCurves(ABC):
@@ -39,34 +39,85 @@ class SoilCurves(ABC):
 
         @property
         def ultimate(self) -> Array:
-            """(n,) largest resistance in N/m; infinite where a curve has no end."""
+            """(n,) largest resistance in N/m; infinite where a curve has no limit."""
 
     @property
     @abstractmethod
     def groups(self) -> tuple[tuple[Indices, SoilCurve], ...]:
-        """The nodes of each law, rising, with their curves; together they are 0 to n - 1."""
+        """Nodes of each law in increasing order, with their curves; together they are 0 to n -
+        1."""
 
     @abstractmethod
     def at(self, nodes: Places) -> SoilCurves:
-        """The curves of some of the nodes, in the order given."""
+        """Curves of some of the nodes, in the order given.
+
+        Parameters
+        ----------
+        nodes : int array or bool array
+            Indices or a mask.
+
+        Returns
+        -------
+        SoilCurves
+        """
 
     def __len__(self) -> int:
         return sum(len(nodes) for nodes, _ in self.groups)
 
     def secant(self, y: Array) -> Array:
-        """(n,) p(y) / y in N/m2, with its limit at y = 0."""
+        """Secant stiffness p(y) / y, with its limit at y = 0.
+
+        Parameters
+        ----------
+        y : (n,) array, m
+            Size of the deflection.
+
+        Returns
+        -------
+        (n,) array, N/m2
+        """
         return self._of_nodes("secant", y)
 
     def tangent(self, y: Array) -> Array:
-        """(n,) dp/dy in N/m2."""
+        """Tangent stiffness dp/dy.
+
+        Parameters
+        ----------
+        y : (n,) array, m
+            Size of the deflection.
+
+        Returns
+        -------
+        (n,) array, N/m2
+        """
         return self._of_nodes("tangent", y)
 
     def energy(self, y: Array) -> Array:
-        """(n,) integral of p from 0 to y in J/m."""
+        """Integral of p from 0 to y.
+
+        Parameters
+        ----------
+        y : (n,) array, m
+            Size of the deflection.
+
+        Returns
+        -------
+        (n,) array, J/m
+        """
         return self._of_nodes("energy", y)
 
     def resistance(self, y: Array) -> Array:
-        """(n,) p(y) in N/m."""
+        """Resistance p(y).
+
+        Parameters
+        ----------
+        y : (n,) array, m
+            Size of the deflection.
+
+        Returns
+        -------
+        (n,) array, N/m
+        """
         return self.secant(y) * y
 
     def _of_nodes(self, quantity: str, y: Array) -> Array:
@@ -80,12 +131,12 @@ class SoilCurves(ABC):
 
 
 class SoilCurve(SoilCurves):
-    """A law of soil curves: base class of those of the package and of a user's own.
+    """A law of soil curves: base class of the package's laws and of your own.
 
     A law is a frozen dataclass whose fields are its parameters, one entry for each of n curves:
-    arrays (n,), or (n, m). :attr:`parameters` has them side by side, in the order of the fields,
-    and the three static functions get a row of it. They are compiled by Numba: what they call must
-    be NumPy's or the standard library's mathematics, or :func:`numba.njit` functions. A field or
+    arrays (n,), or (n, m). :attr:`parameters` contains them side by side, in the order of the
+    fields, and the three static functions receive one row of it. They are compiled by Numba: they
+    may call NumPy, the standard library's mathematics, and :func:`numba.njit` functions. A field or
     property ``ultimate`` gives the largest resistance.
 
     The curve must start at the origin, and neither stiffness may be negative.
@@ -94,17 +145,53 @@ class SoilCurve(SoilCurves):
     @staticmethod
     @abstractmethod
     def secant_at(parameters: Array, y: float) -> float:
-        """p(y) / y of one curve in N/m2 at y >= 0, at y = 0 the initial stiffness."""
+        """Secant stiffness p(y) / y of one curve; at y = 0 the initial stiffness.
+
+        Parameters
+        ----------
+        parameters : (c,) array
+            Parameters of the curve.
+        y : float, m
+            Size of the deflection.
+
+        Returns
+        -------
+        float, N/m2
+        """
 
     @staticmethod
     @abstractmethod
     def tangent_at(parameters: Array, y: float) -> float:
-        """dp/dy of one curve in N/m2 at y >= 0."""
+        """Tangent stiffness dp/dy of one curve.
+
+        Parameters
+        ----------
+        parameters : (c,) array
+            Parameters of the curve.
+        y : float, m
+            Size of the deflection.
+
+        Returns
+        -------
+        float, N/m2
+        """
 
     @staticmethod
     @abstractmethod
     def energy_at(parameters: Array, y: float) -> float:
-        """Integral of p from 0 to y >= 0 of one curve in J/m."""
+        """Integral of p from 0 to y of one curve.
+
+        Parameters
+        ----------
+        parameters : (c,) array
+            Parameters of the curve.
+        y : float, m
+            Size of the deflection.
+
+        Returns
+        -------
+        float, J/m
+        """
 
     @property
     def parameters(self) -> Array:
@@ -113,7 +200,7 @@ class SoilCurve(SoilCurves):
 
     @property
     def corners(self) -> Array | None:
-        """(n, m) deflections between which the curves are straight; None unless they are that."""
+        """(n, m) deflections between which the curves are straight; None for other curves."""
         return None
 
     @property
@@ -121,6 +208,17 @@ class SoilCurve(SoilCurves):
         return ((np.arange(len(self)), self),)
 
     def at(self, nodes: Places) -> Self:
+        """Curves of some of the nodes, in the order given.
+
+        Parameters
+        ----------
+        nodes : int array or bool array
+            Indices or a mask.
+
+        Returns
+        -------
+        SoilCurve
+        """
         return self._made_of([values[nodes] for values in self._fields()])
 
     def __len__(self) -> int:
@@ -167,10 +265,10 @@ class MixedCurves(SoilCurves):
 
 
 def stack_curves(parts: Sequence[tuple[Indices, SoilCurves]]) -> SoilCurves:
-    """Curves of different laws as one.
+    """Curves of different laws combined.
 
-    parts : for each the places (m,) of its m curves in the result, and the curves; the places of
-        all of them together are 0 to n - 1
+    parts : for each law the indices (m,) of its m curves in the result, and the curves; all indices
+        together are 0 to n - 1
     """
     alike: dict[tuple[type[SoilCurve], int], list[tuple[Indices, SoilCurve]]] = {}
     for places, curves in parts:
@@ -187,7 +285,7 @@ def stack_curves(parts: Sequence[tuple[Indices, SoilCurves]]) -> SoilCurves:
 
 
 class LawFunctions(NamedTuple):
-    """Functions of one law, for the kernels that are made of them."""
+    """Functions of one law, for the kernels built from them."""
 
     secant: Callable[[Array, float], float]
     tangent: Callable[[Array, float], float]
@@ -197,12 +295,12 @@ class LawFunctions(NamedTuple):
 
 @cache
 def law_functions(law: type[SoilCurve]) -> LawFunctions:
-    """The functions of a law, ready to be called from compiled code.
+    """Functions of a law, callable from compiled code.
 
-    Kernels are functions inside a function that takes these as arguments. Numba keeps their machine
-    code by what they refer to, a law's functions by their names: the digest tells a law that
-    was changed from what it was. Laws of the package need none, as their cache has a folder of
-    its own for each state of the package.
+    Kernels are functions inside a function that takes these as arguments. Numba's cache identifies
+    a law's functions by their names: the digest distinguishes a changed law from the previous one.
+    Laws of the package need none, since their cache has its own folder for each state of the
+    package.
     """
     ready: Any = register_jitable(error_model="numpy", _nrt=True)
     return LawFunctions(
@@ -216,7 +314,7 @@ def _source(law: type[SoilCurve]) -> str:
     try:
         path = inspect.getsourcefile(law)
         text = b"" if path is None else Path(path).read_bytes()
-    except (OSError, TypeError):  # typed at a prompt: Numba looks at the functions themselves
+    except (OSError, TypeError):  # typed at a prompt: Numba hashes the functions themselves
         return ""
     return hashlib.sha256(text).hexdigest()
 

@@ -1,4 +1,4 @@
-"""Soil curves from tables, and from the definitions that need no layers."""
+"""Soil curves from tables, and from definitions without layers."""
 
 from __future__ import annotations
 
@@ -25,18 +25,18 @@ def tabulated_curves(
 ) -> SoilCurve:
     """Curves from a table of depth, displacement and resistance, interpolated to the depths.
 
-    Between two tabulated depths p is interpolated linearly at equal y, but not across a boundary of
-    layers: there, as above the first and below the last depth, the nearest curve of the layer
-    holds. A depth exactly on a boundary belongs to the layer below. A curve that does not start at
-    y = 0 is led to the origin by a straight line; past its last point p stays constant.
+    Between two tabulated depths p is interpolated linearly at equal y, but not across a layer
+    boundary: there, and above the first and below the last depth, the nearest curve of the layer is
+    used. A depth exactly on a boundary belongs to the layer below. A curve that does not start at
+    y = 0 is extended to the origin by a straight line; beyond its last point p is constant.
 
-    boundaries : depths in m, rising
+    boundaries : increasing depths in m
     columns : names of the three columns
 
     Raises
     ------
     InputError
-        A table that cannot be read, or that has no curve in a layer.
+        An invalid table, or one without a curve in a layer.
     """
     table = read_numbers(path, columns)
     curves = _by_depth(path, columns, table.lines, table.values)
@@ -53,8 +53,8 @@ def tabulated_curves(
             raise InputError(
                 str(path),
                 f"no curve from {edges[i]} m to {edges[i + 1]} m",
-                "one curve or more in each layer that boundaries_m make",
-                "Add one, or leave the boundary out.",
+                "one curve or more in each layer of boundaries_m",
+                "Add a curve, or leave the boundary out.",
             )
         for j, column in enumerate(loads[rows].T):
             at_nodes[nodes, j] = np.interp(depth[nodes], depths[rows], column)
@@ -67,7 +67,7 @@ def soil_curves(curve: LinearModulus | TanhCurve | CurveTable, depth: Array) -> 
     Raises
     ------
     InputError
-        A table that cannot be read.
+        An invalid table.
     """
     if isinstance(curve, LinearModulus):
         return LinearCurves(curve.modulus.at(depth))
@@ -82,7 +82,7 @@ def tabulated_curve(path: Path, columns: tuple[str, str]) -> SoilCurve:
     Raises
     ------
     InputError
-        A table that cannot be read.
+        An invalid table.
     """
     table = read_numbers(path, columns)
     values = np.insert(table.values, 0, 0.0, axis=1)
@@ -93,7 +93,7 @@ def tabulated_curve(path: Path, columns: tuple[str, str]) -> SoilCurve:
 def _by_depth(
     path: Path, columns: tuple[str, str, str], lines: Lines, values: Array
 ) -> dict[float, tuple[Array, Array]]:
-    """(y, p) by depth, both from the origin; each fault is reported with its line."""
+    """(y, p) by depth, starting at the origin; faults are reported with their line."""
     by_depth: dict[float, list[tuple[float, float]]] = {}
     for line, (depth, y, p) in zip(lines, values.tolist(), strict=True):
         where = f"{path}, line {line}"
@@ -102,21 +102,21 @@ def _by_depth(
                 where,
                 (depth, y, p),
                 "depth, y and p of zero or more",
-                "Give one side of the curve.",
+                "Give the positive side of the curve.",
             )
         if y > _LARGEST_DISPLACEMENT:
             allowed = f"{columns[1]} up to {_LARGEST_DISPLACEMENT}"
-            raise InputError(where, y, allowed, f"Is {columns[1]} in the unit it names?")
+            raise InputError(where, y, allowed, f"Is {columns[1]} in the unit in its name?")
         points = by_depth.setdefault(depth, [])
         if points and y <= points[-1][0]:
             raise InputError(
                 where,
                 y,
-                f"y rising strictly within a depth (the last was {points[-1][0]})",
+                f"y increasing strictly within a depth (previous value {points[-1][0]})",
                 f"Sort the rows of each depth by {columns[1]}.",
             )
         if y == 0 and p != 0:
-            raise InputError(where, p, "p = 0 at y = 0", "Curves start at the origin.")
+            raise InputError(where, p, "p = 0 at y = 0", "Start the curve at the origin.")
         points.append((y, p))
     curves = {}
     for depth, points in by_depth.items():

@@ -32,7 +32,7 @@ def ratio_at(table: Array, y: float) -> tuple[float, float]:
 
 @dataclass(frozen=True, eq=False)
 class Dashpot:
-    """What makes dashpots of springs.
+    """Coefficients of dashpots relative to springs.
 
     Attributes
     ----------
@@ -41,7 +41,7 @@ class Dashpot:
     secant_time : (b,) array, s
         beta_s / (pi f_load) there, times the secant stiffness.
     initial_time : float
-        The same for all deflections, times the initial stiffness.
+        Factor of the initial stiffness, the same for all deflections.
     """
 
     deflection: Array
@@ -55,7 +55,7 @@ class Dashpot:
 
     @staticmethod
     def of(definition: SoilDashpot | None) -> Dashpot:
-        """The dashpot of a definition, or none."""
+        """The dashpot of a definition; zero without one."""
         if definition is None:
             return NO_DASHPOT
         unit, factor = 1 / (np.pi * definition.load_frequency), definition.damping_factor

@@ -37,16 +37,16 @@ from offwind_pin.loads.soil.springs.dashpot import Dashpot, ratio_at
 
 @dataclass(frozen=True)
 class SpringComponent:
-    """What a spring resists, as columns of motion and force and places among the tangents.
+    """The motion that a spring resists, as columns of motion and force and indices of tangents.
 
     Attributes
     ----------
     deflection, rate, force : int
         First columns.
     size : int
-        Number of components, whose law sees the length of the vector.
+        Number of components; the law applies to the length of the vector.
     stiffness, damping : int
-        Places of the tangents.
+        Indices of the tangents.
     first : int
         First row and column in them.
     """
@@ -61,7 +61,7 @@ class SpringComponent:
 
     @property
     def columns(self) -> Array:
-        """(7,) for the constants of a load, as ``DEFLECTION`` and the others have them."""
+        """(7,) for the constants of a load, in the order of ``DEFLECTION`` and the others."""
         whole = (
             self.deflection,
             self.rate,
@@ -88,10 +88,10 @@ TORSIONAL = SpringComponent(TURN.start + 2, SPIN.start + 2, 5, 1, MOMENT_BY_TURN
 """Horizontal displacement, settlement, rotation about horizontal axes, twist about the axis."""
 
 DEFLECTION, RATE, FORCE, SIZE, STIFFNESS, DAMPING, FIRST = range(7)
-"""Columns of a node's constants that say what its spring resists: those of its component."""
+"""Columns of a node's constants that describe the component of its spring."""
 _LENGTH, CONSTANT_DASHPOT, _DASHPOT = range(7, 10)
 """Further columns: tributary length, coefficient of a constant dashpot, and from the last on the
-table of the dashpot that varies, which begins with the number of its points. The parameters of the
+table of the variable dashpot, which begins with the number of its points. The parameters of the
 curve follow."""
 
 
@@ -111,7 +111,7 @@ class _SpringKernels(NamedTuple):
 
 @cache
 def _spring_kernels(law: type[SoilCurve]) -> _SpringKernels:
-    """Kernels of springs whose curves have a law."""
+    """Kernels of springs of one law."""
     secant_at, tangent_at, energy_at, source = law_functions(law)
 
     @force_kernel
@@ -182,9 +182,9 @@ class SoilSprings(GroupedLoad):
     Attributes
     ----------
     name : str
-        Short, unique in a system.
+        Short name, unique in a system.
     component : SpringComponent
-        What is resisted; for rotations read moment for force.
+        The resisted motion; for rotations forces are moments.
     height : (n,) array, m
         Heights of the nodes.
     tributary_length : (n,) array, m
@@ -192,7 +192,7 @@ class SoilSprings(GroupedLoad):
     curves : SoilCurves
         Resistance per length over deflection.
     dashpot : Dashpot
-        Beside each spring.
+        Dashpot parallel to each spring.
     """
 
     name: str
@@ -206,7 +206,7 @@ class SoilSprings(GroupedLoad):
 
     @cached_property
     def groups(self) -> tuple[tuple[Indices, KernelLoad], ...]:
-        """Nodes whose curves have the same law, with their springs."""
+        """Nodes of each law, with their springs."""
         return tuple((nodes, self._of_law(nodes, curves)) for nodes, curves in self.curves.groups)
 
     def _of_law(self, nodes: Indices, curves: SoilCurve) -> KernelLoad:
@@ -216,7 +216,7 @@ class SoilSprings(GroupedLoad):
 
 @dataclass(frozen=True, eq=False)
 class SpringsOfLaw(KernelLoad):
-    """Those of :class:`SoilSprings` whose curves have one law."""
+    """Springs of :class:`SoilSprings` of one law."""
 
     name: str
     component: SpringComponent
@@ -243,7 +243,7 @@ class SpringsOfLaw(KernelLoad):
     def constants(self) -> Array:
         n, length = len(self.height), self.tributary_length
         initial = np.zeros(n)
-        if self.dashpot.initial_time:  # without it nothing need be compiled for the secant
+        if self.dashpot.initial_time:  # without it the secant need not be compiled
             initial = self.curves.secant(np.zeros(n)) * length * self.dashpot.initial_time
         return np.column_stack(
             [

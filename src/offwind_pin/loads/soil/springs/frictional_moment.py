@@ -1,8 +1,8 @@
-"""Moments along a pile that its lateral resistance carries: PISA's m-psi springs in sand.
+"""Moments along a pile due to friction under its lateral resistance: PISA's m-psi springs in sand.
 
-The shear stress on the shaft is a share of the lateral pressure, so that m = |p(y)| c(psi) with a
-lever c in m (Burd et al., Geotechnique 70, 2020, pages 1048 to 1066). No energy belongs to that;
-what it takes counts as work.
+The shear stress on the shaft is proportional to the lateral pressure, so that m = |p(y)| c(psi)
+with a lever c in m (Burd et al., Geotechnique 70, 2020, pages 1048 to 1066). There is no stored
+energy; its power counts as work.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ from offwind_pin.loads.soil.springs.elastic import deflection_size
 
 _LENGTH, _LEVER_SIZE, _LEVER = range(3)
 """Columns of a node's constants: tributary length, number of the lever's parameters, and from the
-last on these parameters, with those of the lateral curve behind them."""
+last on these parameters, followed by those of the lateral curve."""
 
 _U, _R, _MOMENT = DISPLACEMENT.start, TURN.start, 3
 
@@ -48,7 +48,7 @@ class _FrictionKernels(NamedTuple):
 
 @cache
 def _friction_kernels(lateral: type[SoilCurve], lever: type[SoilCurve]) -> _FrictionKernels:
-    """Kernels of moments whose lateral curves and levers have a law each."""
+    """Kernels of moments for one law of lateral curves and one of levers."""
     secant_at, tangent_at, _, lateral_source = law_functions(lateral)
     lever_at, lever_tangent_at, _, lever_source = law_functions(lever)
     source = lateral_source + lever_source
@@ -123,7 +123,7 @@ class FrictionalMoment(GroupedLoad):
 
     @cached_property
     def groups(self) -> tuple[tuple[Indices, KernelLoad], ...]:
-        """Nodes whose curves, and whose levers, have the same law, with their moments."""
+        """Nodes of each pair of laws, with their moments."""
         found = []
         for members, lateral in self.lateral.groups:
             for places, lever in self.lever.at(members).groups:
@@ -135,7 +135,7 @@ class FrictionalMoment(GroupedLoad):
 
 @dataclass(frozen=True, eq=False)
 class FrictionOfLaws(KernelLoad):
-    """Those of :class:`FrictionalMoment` whose curves and levers have one law each."""
+    """Moments of :class:`FrictionalMoment` for one law of curves and one of levers."""
 
     height: Array
     tributary_length: Array

@@ -1,8 +1,8 @@
 """Hysteretic soil springs: parallel elastic-plastic sliders, after Iwan (1966).
 
-A slider is a spring that yields in the direction of its pull, once stretched by its yield
-deflection. Sliders in parallel follow the backbone on first loading and Masing's rule on unloading;
-what they dissipate depends on the path and not on its rate.
+A slider is a spring that yields in the direction of its force once stretched by its yield
+deflection. Parallel sliders follow the backbone on first loading and Masing's rule on unloading;
+their dissipation depends on the path and not on its rate.
 """
 
 from __future__ import annotations
@@ -37,15 +37,15 @@ from offwind_pin.loads.soil.springs.elastic import (
 )
 
 _DASHPOT, _SLIDERS = 7, 8
-"""Columns of a node's constants after those of its component: coefficient of the constant dashpot,
-and number of sliders; their stiffnesses and then their yield deflections follow."""
+"""Columns of a node's constants after those of its component: coefficient of the constant dashpot
+and number of sliders, followed by their stiffnesses and their yield deflections."""
 
 _ROUNDING = 1e-10
 """Relative excess of a squared yield deflection below which a slider has not yielded."""
 _FIRST_SHARE, _LAST_SHARE = 0.02, 0.999
-"""Shares of the ultimate resistance at which the first and the last slider yield."""
+"""Fractions of the ultimate resistance at which the first and the last slider yield."""
 _SEARCHED = np.geomspace(1e-9, 10.0, 2001)
-"""Deflections in m or rad among which those two are found."""
+"""Deflections in m or rad among which these two are sought."""
 
 
 @inner
@@ -107,7 +107,7 @@ def _tangents(
                 block[axis, axis] -= pull
                 if components == 2:
                     block[axis + 1, axis + 1] -= pull
-            elif components == 2:  # yielding, it can still turn
+            elif components == 2:  # a yielding slider can still change direction
                 across = pull * limit / square**1.5
                 block[axis, axis] -= across * y * y
                 block[axis, axis + 1] += across * x * y
@@ -155,7 +155,7 @@ def _commit(motion: Array, constants: Array, time_inputs: Array, memory: Array) 
 class HystereticSprings(SoilSprings):
     """Springs whose curves are the backbones of parallel sliders.
 
-    A constant dashpot may act beside them.
+    A constant dashpot may act in parallel.
 
     sliders : number for each spring
     """
@@ -164,7 +164,7 @@ class HystereticSprings(SoilSprings):
 
     @cached_property
     def groups(self) -> tuple[tuple[Indices, KernelLoad], ...]:
-        """All nodes: sliders are the same whatever the law of their backbone."""
+        """All nodes: sliders are the same for any law of the backbone."""
         n, length = len(self.height), self.tributary_length[:, None]
         stiffness, limit = sliders_of(self.curves, self.sliders, self.name)
         initial = self.curves.secant(np.zeros(n)) * self.tributary_length
@@ -204,15 +204,15 @@ class SpringSliders(KernelLoad):
 
     @property
     def memory_size(self) -> int:
-        """Slips of the sliders."""
+        """Number of slips of the sliders."""
         return self.stiffness.size * self.component.size
 
 
 def sliders_of(curves: SoilCurves, count: int, name: str = "soil") -> tuple[Array, Array]:
     """Sliders that follow curves on first loading, by chords between their yield deflections.
 
-    These are spaced geometrically from where the first fiftieth of the ultimate resistance is
-    mobilised to where all but a thousandth is; past the last one the resistance is constant. A
+    Yield deflections are spaced geometrically from where a fiftieth of the ultimate resistance is
+    mobilised to where all but a thousandth is; beyond the last one the resistance is constant. A
     linear curve becomes one spring that never yields.
 
     Returns
@@ -224,7 +224,7 @@ def sliders_of(curves: SoilCurves, count: int, name: str = "soil") -> tuple[Arra
     Raises
     ------
     InputError
-        A curve that falls, or stiffens, with deflection.
+        A curve that falls or stiffens with deflection.
     """
     n = len(curves)
     stiffness, limit = np.zeros((n, count)), np.full((n, count), np.inf)
@@ -245,8 +245,8 @@ def sliders_of(curves: SoilCurves, count: int, name: str = "soil") -> tuple[Arra
             worst = int(np.argmin(fall))
             raise InputError(
                 f"hysteretic springs {name!r}, node {i + 1} of {n}",
-                f"a curve that turns upwards or falls at a deflection of {y[worst]:.3g}",
-                "resistances that rise less and less steeply, and never fall",
+                f"a curve that stiffens or falls at a deflection of {y[worst]:.3g}",
+                "a resistance with a decreasing slope that never falls",
                 "Use a static curve without residual loss (residual_ratio: 1), or a dashpot "
                 "instead of hysteretic springs.",
             )

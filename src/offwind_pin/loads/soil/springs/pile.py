@@ -1,4 +1,4 @@
-"""Every load of the soil on an embedded pile: springs, dashpots and sliders at its nodes."""
+"""All soil loads on an embedded pile: springs, dashpots and sliders at its nodes."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ from offwind_pin.loads.soil.springs.hysteretic import HystereticSprings
 
 
 def pile_nodes(count: int, mudline: float, toe: float) -> tuple[Array, Array]:
-    """Heights of nodes at equal distances from mudline to toe, and tributary lengths, in m.
+    """Heights of evenly spaced nodes from mudline to toe, and tributary lengths, in m.
 
     The end nodes have half a length.
     """
@@ -60,8 +60,8 @@ def pile_soil(
     Raises
     ------
     InputError
-        A table that cannot be read, a curve that sliders cannot follow, or a pile outside what a
-        family can describe.
+        An invalid table, a curve that sliders cannot follow, or a pile outside the range of a
+        family.
     """
     loads: list[PointLoad] = []
     toe, whole = height[-1:], np.ones(1)
