@@ -107,7 +107,12 @@ def _described(hint: Any) -> str:
         return _described(arguments[0])
     plain = origin or hint
     name = getattr(plain, "__name__", str(plain))
+    if origin is not None and arguments and name in _HOLDERS:
+        return f"{_HOLDERS[name]} of {_described(arguments[0])}"
     return _NAMES.get(name, name)
+
+
+_HOLDERS = {"Sequence": "a sequence", "list": "a list", "tuple": "a tuple"}
 
 
 _NAMES = {

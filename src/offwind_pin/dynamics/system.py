@@ -125,8 +125,8 @@ class System:
         joint_damping : (nv,) array
         ratios : dict of str to float
             Achieved damping ratios by mode label.
-        structural_loads : tuple of InertialDamping
-        cautions : tuple of str
+        structural_loads : tuple of InertialDamping, optional
+        cautions : tuple of str, optional
 
         Returns
         -------

@@ -79,11 +79,15 @@ def _coordinate_fault(data: xr.Dataset) -> str | None:
     return None
 
 
+_NAN_WHERE_NONE = ("solver_step", "damping_asked")
+"""Variables that are NaN where a solver chose its step, or where no ratio was asked for."""
+
+
 def _value_fault(data: xr.Dataset) -> str | None:
     for name, variable in data.variables.items():
         if "time" in variable.dims and variable.dtype.kind not in "fi":
             return f"variable {name} is not of numbers"
-        if variable.dtype.kind != "f" or name == "solver_step":  # NaN where a solver chose it
+        if variable.dtype.kind != "f" or name in _NAN_WHERE_NONE:
             continue
         for begin in range(0, variable.shape[0] if variable.ndim else 1, _PARTS):
             part = variable[begin : begin + _PARTS] if variable.ndim else variable

@@ -109,11 +109,10 @@ def modal_dataset(
     label : list of str
         Labels of the n modes.
     frequency_hz, damping_ratio : (n,) array
-        Arrays, Hz and 1.
     damping_parts : (n, 4) array
-        1; of structure, soil, water and everything else.
+        Contributions of structure, soil, water and everything else.
     damping_asked : (n,) array
-        1; NaN for modes that have no ratio in the turbine file.
+        NaN for modes without a ratio in the turbine file.
     shape, mass_normalised : (n, m, 6) array
     participation : (n, f) array
         Participation of the f families of joints.

@@ -329,7 +329,7 @@ def test_pictures_show_the_numbers(overview: ow.SoilOverview) -> None:
     force, moment = figures["pushover"].axes
     named = {line.get_label(): line for line in force.lines}
     assert_allclose(named["distributed springs"].get_ydata()[-1], overview.pushover.load[-1] / 1e6)
-    tangent = named["6\u00d76 of small motions"]
+    tangent = named["6\u00d76 for small motions"]
     slope = tangent.get_ydata()[1] / tangent.get_xdata()[1]
     unloaded = overview.stiffness["tangent_unloaded"]
     moved = np.linalg.solve(unloaded, [1.0, 0, 0, 0, overview.pushover.arm, 0])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import json
+import html
 import re
 import socket
 from dataclasses import replace
@@ -208,7 +209,7 @@ def test_page_is_self_contained_and_stays_small(page: str) -> None:
     markup = re.sub(r"<script>.*?</script>", "", page, flags=re.DOTALL)
     references = re.findall(r"(?:src|href|action|url)\s*[=(]\s*[\"']?([^\"')\s>]+)", markup)
     assert references == ["data:,"]
-    assert "default-src 'none'" in markup
+    assert "default-src 'none'" in html.unescape(markup)
     assert "Permission is hereby granted, free of charge" in page
 
 

@@ -167,7 +167,7 @@ HEADER = "depth_m,y_m,p_n_per_m\n"
         (HEADER + "0,0,0\n0,0.01,many\n", "column 3"),
         (HEADER + "0,0,0\n0,nan,1\n", "column 2"),
         (HEADER + "0,0,0\n0,0.01,-5\n", "line 3"),
-        (HEADER + "0,0.02,5\n0,0.01,6\n", "rising"),
+        (HEADER + "0,0.02,5\n0,0.01,6\n", "increasing"),
         (HEADER + "0,0,7\n0,0.01,8\n", "origin"),
         (HEADER + "0,0,0\n", "two points"),
     ],
