@@ -223,7 +223,17 @@ class ModalResult:
         return pd.DataFrame(columns, index=pd.Index(self.label, name="mode"))
 
     def subset(self, kept: Sequence[int]) -> ModalResult:
-        """Some of the modes, by their places."""
+        """Some of the modes.
+
+        Parameters
+        ----------
+        kept : sequence of int
+            Their indices.
+
+        Returns
+        -------
+        ModalResult
+        """
         rows = list(kept)
         return replace(
             self,

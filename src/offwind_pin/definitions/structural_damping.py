@@ -29,18 +29,46 @@ class _OfASystem(Definition):
     still_water: Flag | None = None
 
     def wet(self, *, in_water: bool) -> bool:
-        """Whether that system is in water, for a run that is or is not."""
+        """Whether that system is in water.
+
+        Parameters
+        ----------
+        in_water : bool
+            Whether the run is.
+
+        Returns
+        -------
+        bool
+        """
         return in_water if self.still_water is None else self.still_water
 
 
 class StiffnessDamping(_OfASystem):
-    """Stiffness-proportional joint damping whose factors are calibrated on named modes."""
+    """Stiffness-proportional joint damping whose factors are calibrated on named modes.
+
+    Attributes
+    ----------
+    ratios : dict of str to float
+        Of critical, by mode label.
+    """
 
     kind: Literal["stiffness"] = "stiffness"
     ratios: Ratios = key("ratios_of_critical")
 
     def ratio_of(self, label: str, frequency: float) -> float:
-        """Ratio asked for in a mode at a frequency in Hz, NaN for none."""
+        """Structural damping ratio asked for in a mode.
+
+        Parameters
+        ----------
+        label : str
+            Label such as ``"FA1"``.
+        frequency : float, Hz
+
+        Returns
+        -------
+        float
+            NaN if none was asked for.
+        """
         return self.ratios.get(label, math.nan)
 
 
@@ -49,6 +77,8 @@ class ModalDamping(_OfASystem):
 
     Attributes
     ----------
+    ratios : dict of str to float
+        Of critical, by mode label.
     others : float
         Ratio of every other mode up to the cutoff; beyond, damping grows with frequency.
     cutoff : float, Hz
@@ -60,7 +90,19 @@ class ModalDamping(_OfASystem):
     cutoff: Annotated[Positive, Field(ge=0.1, le=20)] = key("cutoff_hz", default=5.0)
 
     def ratio_of(self, label: str, frequency: float) -> float:
-        """Ratio asked for in a mode at a frequency in Hz, NaN for none."""
+        """Structural damping ratio asked for in a mode.
+
+        Parameters
+        ----------
+        label : str
+            Label such as ``"FA1"``.
+        frequency : float, Hz
+
+        Returns
+        -------
+        float
+            NaN if none was asked for.
+        """
         others = self.others if frequency <= self.cutoff else math.nan
         return self.ratios.get(label, others)
 
@@ -70,6 +112,15 @@ class RayleighDamping(_OfASystem):
 
     Either the ratios of two named modes, or two frequencies and the ratios
     there, or both factors are given.
+
+    Attributes
+    ----------
+    ratios : dict of str to float or None
+        Of critical, by mode label.
+    frequencies : (float, float) or None, Hz
+    ratios_at_frequencies : (float, float) or None
+    alpha : float or None, 1/s
+    beta : float or None, s
     """
 
     kind: Literal["rayleigh"] = "rayleigh"
@@ -80,7 +131,19 @@ class RayleighDamping(_OfASystem):
     beta: Annotated[Number, Field(ge=0, le=10)] | None = key("beta_s", default=None)
 
     def ratio_of(self, label: str, frequency: float) -> float:
-        """Ratio asked for in a mode at a frequency in Hz, NaN for none."""
+        """Structural damping ratio asked for in a mode.
+
+        Parameters
+        ----------
+        label : str
+            Label such as ``"FA1"``.
+        frequency : float, Hz
+
+        Returns
+        -------
+        float
+            NaN if none was asked for.
+        """
         return (self.ratios or {}).get(label, math.nan)
 
     @model_validator(mode="after")

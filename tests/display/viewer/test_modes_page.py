@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import base64
-import json
 import html
+import json
 import re
 import socket
 from dataclasses import replace
