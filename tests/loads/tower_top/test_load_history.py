@@ -120,5 +120,5 @@ def test_missing_and_binary_files_are_refused(tmp_path: Path) -> None:
         ow.read_load_history(tmp_path / "none.txt")
     binary = tmp_path / "binary.txt"
     binary.write_bytes(b"\xff\xfe\x00\x80")
-    with pytest.raises(ow.InputError, match="no text"):
+    with pytest.raises(ow.InputError, match="text in lines"):
         ow.read_load_history(binary)
