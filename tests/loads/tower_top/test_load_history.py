@@ -77,7 +77,7 @@ ROW = "0 1 2 3 4 5 6\n"
 
 
 @pytest.mark.parametrize(
-    ("text", "message"),
+    ("text", "told"),
     [
         ("", "0 rows"),
         ("# only a comment\n", "0 rows"),
@@ -105,11 +105,11 @@ ROW = "0 1 2 3 4 5 6\n"
         "units",
     ],
 )
-def test_bad_file_is_refused(tmp_path: Path, text: str, message: str) -> None:
-    """Every fault is reported with the file and the line."""
+def test_bad_file_is_refused(tmp_path: Path, text: str, told: str) -> None:
+    """Every fault is told with the file and the line."""
     path = tmp_path / "bad.txt"
     path.write_text(text)
-    with pytest.raises(ow.InputError, match=message) as caught:
+    with pytest.raises(ow.InputError, match=told) as caught:
         ow.read_load_history(path)
     assert str(path) in str(caught.value)
 
@@ -120,5 +120,5 @@ def test_missing_and_binary_files_are_refused(tmp_path: Path) -> None:
         ow.read_load_history(tmp_path / "none.txt")
     binary = tmp_path / "binary.txt"
     binary.write_bytes(b"\xff\xfe\x00\x80")
-    with pytest.raises(ow.InputError, match="not text"):
+    with pytest.raises(ow.InputError, match="text in lines"):
         ow.read_load_history(binary)
