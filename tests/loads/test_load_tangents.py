@@ -4,7 +4,6 @@ import importlib
 import pkgutil
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
-from inspect import isabstract
 from pathlib import Path
 
 import numpy as np
@@ -48,6 +47,7 @@ from offwind_pin.loads.soil.springs.frictional_moment import FrictionalMoment
 from offwind_pin.loads.soil.springs.hysteretic import HystereticSprings
 from offwind_pin.loads.soil.springs.pile import pile_nodes
 from offwind_pin.loads.structural.coupled_damping import CoupledDamping
+from offwind_pin.loads.structural.inertial_damping import InertialDamping
 from offwind_pin.loads.structural.mass_damping import MassDamping
 from offwind_pin.loads.tower_top.load_history import TowerTopLoad
 from offwind_pin.loads.wind.history import WindHistory
@@ -273,14 +273,14 @@ def descendants(kind: type[Load]) -> Iterator[type[Load]]:
 def without_example(kinds: Iterable[type[Load]], parts: set[type[KernelLoad]]) -> list[str]:
     """The package's loads that are neither in the table above nor parts of loads that are.
 
-    Coupled damping has no tangents of its own: tests of modal damping check the Newton matrix.
+    Inertial damping is a base class. Coupled damping has no tangents of its own: tests of modal
+    damping check the Newton matrix.
     """
     own = [
         kind
         for kind in kinds
         if kind.__module__.startswith("offwind_pin.")
-        and not isabstract(kind)
-        and kind is not CoupledDamping
+        and kind not in {InertialDamping, CoupledDamping}
     ]
     return [kind.__name__ for kind in own if not (EXAMPLES.get(kind) or kind in parts)]
 
@@ -396,6 +396,7 @@ def depends_on(name: str) -> set[str]:
         "buoyancy": {"turning"},
         "pressure inside": {"turning"},
         "tower top": set[str](),
+        "damping in proportion to mass": {"damping", "moment_damping"},
         "friction": {"moment_coupling", "moment_stiffness"},
         "written in Python": {"stiffness", "damping", "inertia", "turning"},
     }[name]
@@ -559,6 +560,7 @@ def test_other_loads_store_nothing(oc6: ow.Turbine, tmp_path: Path) -> None:
         "buoyancy",
         "pressure inside",
         "tower top",
+        "damping in proportion to mass",
         "written in Python",
         "friction",
     }

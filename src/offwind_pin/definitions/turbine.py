@@ -261,8 +261,7 @@ class Turbine(Definition):
         Coefficients and settings of the hydrodynamic loads.
     soil : Soil
         Parameters of each kind of foundation.
-    structural_damping : DampingCalibration or None
-        Required damping ratios of modes.
+    structural_damping : StiffnessDamping, ModalDamping, RayleighDamping or None
     """
 
     name: Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9._-]*$")]

@@ -28,4 +28,6 @@ def register_layer(kind: type[SoilLayer]) -> None:
         )
     LAYER_KINDS.append(kind)
     for definition in (LayeredGround, DistributedSprings, Soil, Turbine):  # from the inside out
+        signature = definition.__signature__
         definition.model_rebuild(force=True)
+        definition.__signature__ = signature  # Pydantic replaces it by that of __init__

@@ -1,5 +1,6 @@
 """A law of soil curves from outside the package, among shipped ones in layered ground."""
 
+import inspect
 from collections.abc import Iterator
 
 import numpy as np
@@ -135,3 +136,10 @@ def test_layers_of_an_own_kind_are_checked() -> None:
 
     with pytest.raises(ow.InputError, match="hyperbolic"):
         register_layer(Namesake)
+
+
+def test_turbines_keep_their_signature() -> None:
+    """A registered family is among the kinds of layers; arguments of Turbine are its fields."""
+    names = inspect.signature(ow.Turbine).parameters
+    assert {"name", "members", "soil"} <= names.keys()
+    assert "values" not in names
