@@ -90,7 +90,7 @@ def reference(short_chain: ow.System) -> Array:
         return np.concatenate([y[nv:], -np.linalg.solve(equations.mass(y[:nv]), force)])
 
     begin = np.concatenate(three_modes(short_chain))
-    return solve_ivp(rate, (0, END), begin, method="Radau", rtol=1e-7, atol=1e-9).y[:nv, -1]
+    return solve_ivp(rate, (0, END), begin, method="Radau", rtol=1e-8, atol=1e-10).y[:nv, -1]
 
 
 @pytest.mark.parametrize("run", [interpreted, compiled])

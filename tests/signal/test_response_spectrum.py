@@ -53,26 +53,27 @@ def test_stiff_and_soft_limits() -> None:
 
 
 def test_against_another_solver() -> None:
-    """SciPy's Runge-Kutta of order 8 on all oscillators, seen twenty times a sample."""
+    """SciPy's Runge-Kutta of order 8 on one oscillator at a time, seen ten times a sample."""
     motion = shaking(6.0)
     record = motion.corrected[0]
     periods = np.array([0.08, 0.5, 2.0])
     found = response_spectrum(record, motion.step, periods)
     after = np.linspace(0, 8.0, 8001)
-    w = 2 * np.pi / periods[:, None]
+    for i, period in enumerate(periods):
+        w = 2 * np.pi / period
+        for j in range(2):
 
-    def rate(time: float, state: Array) -> Array:
-        u, v = state.reshape(2, 3, 2)
-        a = [np.interp(time, motion.time, record[:, j], right=0.0) for j in range(2)]
-        return np.concatenate([v, -(w**2) * u - 0.1 * w * v - a], axis=None)
+            def rate(time: float, y: Array, w: float = w, j: int = j) -> list[float]:
+                a = np.interp(time, motion.time, record[:, j], right=0.0)
+                return [y[1], -(w**2) * y[0] - 0.1 * w * y[1] - float(a)]
 
-    solution = solve_ivp(
-        rate, (0, 8), np.zeros(12), "DOP853", after, rtol=1e-6, atol=1e-9, max_step=0.02
-    )
-    u, v = np.moveaxis(solution.y.reshape(2, 3, 2, -1), 3, 1)
-    assert found.displacement[:, :2] == pytest.approx(np.abs(u).max(axis=0), rel=1e-3)
-    absolute = np.abs(w**2 * u + 0.1 * w * v).max(axis=0)
-    assert found.absolute_acceleration[:, :2] == pytest.approx(absolute, rel=1e-3)
+            solution = solve_ivp(
+                rate, (0, 8), [0, 0], "DOP853", after, rtol=1e-9, atol=1e-12, max_step=0.02
+            )
+            u, v = solution.y
+            assert found.displacement[i, j] == pytest.approx(np.abs(u).max(), rel=1e-3)
+            absolute = np.abs(w**2 * u + 0.1 * w * v).max()
+            assert found.absolute_acceleration[i, j] == pytest.approx(absolute, rel=1e-3)
 
 
 def test_exact_between_samples() -> None:

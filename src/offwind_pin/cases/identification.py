@@ -179,7 +179,7 @@ def _shaken(
         # no numerical damping, which would be identified too
         integrator=GeneralizedAlpha(FixedStep(STEP), 1.0),
         engine=engine,
-        save_at=SaveAt(heights=tuple(height.tolist()), segments=(), channels=("acceleration",)),
+        save_at=SaveAt(heights=tuple(height.tolist()), segments=()),
         progress=None if progress is None else lambda now: progress(now, steps * STEP),
     )
 
